@@ -42,7 +42,7 @@ static bool read_cycle(const kz_atlas *atlas, const double place[2], kz_plane_cy
 }
 
 /* Adds the curve of a seed that the atlas lacks, and tells it. */
-static void tell(kz_atlas *atlas, const kz_plane_cycle *seed) {
+static void births_tell(kz_atlas *atlas, const kz_plane_cycle *seed) {
   kz_atlas_curve curve;
   double value[2];
   kz_atlas_trace(atlas, seed, &curve);
@@ -74,7 +74,7 @@ int main(int count, char **word) {
       else if (kz_atlas_band_at(atlas, births.list + i) < LEAST_BAND)
         thin++;
       else
-        tell(atlas, births.list + i);
+        births_tell(atlas, births.list + i);
   }
   printf("followed %ld %ld %ld %ld %ld\n", (long)cycles, (long)followed, (long)met, (long)known, (long)thin);
   kz_atlas_close(atlas);

@@ -36,7 +36,7 @@ static const drive drives[] = {
      7},
     {"ramp", {FIG12}, {.periods = 1e6, .damping = 1.0 / 55, .drive = 0.5, .smooth = 1}, 1}};
 
-static double now(void) {
+static double digits_now(void) {
   struct timespec t;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
@@ -50,10 +50,10 @@ static double time_of(const drive *d, int64_t bits) {
     kz_jet jet = {.linear = {{1, 0}, {0, 1}}};
     kz_arbitrary *orbit = kz_arbitrary_create(&d->pendulum, start, bits);
     kz_arbitrary_release(orbit, &d->release);
-    const double begun = now();
+    const double begun = digits_now();
     for (int period = 0; period < PERIODS; period++)
       if (kz_arbitrary_advance(orbit, bits, 3, &jet) != KZ_OK) return NAN;
-    best = fmin(best, now() - begun);
+    best = fmin(best, digits_now() - begun);
     kz_arbitrary_free(orbit);
   }
   return 1e6 * best / PERIODS;

@@ -42,7 +42,7 @@ typedef struct {
 } counts;
 
 /* Number j of start i, evenly in [from, to), independent of other starts: splitmix64 (Steele, Lea, Flood 2014). */
-static double uniform(int64_t i, int j, double from, double to) {
+static double enclosures_uniform(int64_t i, int j, double from, double to) {
   uint64_t x = (2 * (uint64_t)i + (uint64_t)j + 1) * 0x9e3779b97f4a7c15;
   x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9;
   x = (x ^ x >> 27) * 0x94d049bb133111eb;
@@ -50,7 +50,7 @@ static double uniform(int64_t i, int j, double from, double to) {
 }
 
 /* Counts a set, in whose coordinates the motion is at z. */
-static void count(const kz_enclosure *set, const double z[2], counts *of) {
+static void enclosures_count(const kz_enclosure *set, const double z[2], counts *of) {
   double share = 0;
   for (int j = 0; j < 2; j++) share = fmax(share, fabs(z[j]) / set->reach[j]);
   of->farthest = fmax(of->farthest, share);
@@ -63,22 +63,22 @@ typedef struct {
   kz_arbitrary *orbit[BATCH];
 } motions;
 
-static void start(const kz_pendulum *pendulum, bool in_digits, int n, const double *theta, const double *velocity,
-                  motions *m) {
+static void enclosures_start(const kz_pendulum *pendulum, bool in_digits, int n, const double *theta,
+                             const double *velocity, motions *m) {
   kz_reference_start(n, theta, velocity, NULL, m->state);
   for (int i = 0; i < n && in_digits; i++)
     m->orbit[i] =
         kz_arbitrary_create(pendulum, (kz_coordinate[2]){{.high = theta[i]}, {.high = velocity[i]}}, DIGITS_BITS);
 }
 
-static void advance(const kz_pendulum *pendulum, bool in_digits, int n, int64_t steps, motions *m) {
+static void enclosures_advance(const kz_pendulum *pendulum, bool in_digits, int n, int64_t steps, motions *m) {
   if (!in_digits) kz_reference_advance(pendulum, KZ_REFERENCE_STEPS, n, steps, m->state);
   for (int i = 0; i < n && in_digits; i++)
     for (int64_t period = 0; period < steps; period++)
       if (kz_arbitrary_advance(m->orbit[i], DIGITS_BITS, 0, NULL) != KZ_OK) exit(1);
 }
 
-static void place(bool in_digits, const motions *m, int i, const kz_enclosure *set, double z[2]) {
+static void enclosures_place(bool in_digits, const motions *m, int i, const kz_enclosure *set, double z[2]) {
   quad end[2];
   memcpy(end, m->state[i].quads, sizeof end);
   if (in_digits)
@@ -88,34 +88,34 @@ static void place(bool in_digits, const motions *m, int i, const kz_enclosure *s
 }
 
 /* The starts first .. first + n - 1, n <= BATCH, through all stages. */
-static void follow(const kz_pendulum *pendulum, const kz_enclosure_tables *tables, bool in_digits, int64_t first, int n,
-                   counts of[STAGES]) {
+static void enclosures_follow(const kz_pendulum *pendulum, const kz_enclosure_tables *tables, bool in_digits,
+                              int64_t first, int n, counts of[STAGES]) {
   static kz_enclosure set[BATCH];
   static motions m;
   static double theta[BATCH], velocity[BATCH];
   double z[2];
   for (int i = 0; i < n; i++) {
-    theta[i] = uniform(first + i, 0, -M_PI, M_PI);
-    velocity[i] = uniform(first + i, 1, -2, 2);
+    theta[i] = enclosures_uniform(first + i, 0, -M_PI, M_PI);
+    velocity[i] = enclosures_uniform(first + i, 1, -2, 2);
     set[i] = set_at(theta[i], velocity[i], 0);
   }
-  start(pendulum, in_digits, n, theta, velocity, &m);
+  enclosures_start(pendulum, in_digits, n, theta, velocity, &m);
   for (int s = 0; s < STAGES; s++) {
     for (int64_t period = 0; period < periods[s]; period++) kz_enclosures_advance(tables, KZ_NEW_FRAME, n, set);
-    advance(pendulum, in_digits, n, periods[s], &m);
+    enclosures_advance(pendulum, in_digits, n, periods[s], &m);
     for (int i = 0; i < n; i++) {
       const bool lost = !isfinite(set[i].reach[0] + set[i].reach[1]);
       of[s].lost += lost;
       if (lost) continue;
-      place(in_digits, &m, i, &set[i], z);
-      count(&set[i], z, of + s);
+      enclosures_place(in_digits, &m, i, &set[i], z);
+      enclosures_count(&set[i], z, of + s);
     }
   }
   for (int i = 0; i < n && in_digits; i++) kz_arbitrary_free(m.orbit[i]);
 }
 
 /* Whether the starts lie in their sets. */
-static bool enclose(int drive, int32_t precision, int64_t first, int64_t end) {
+static bool enclosures_enclose(int drive, int32_t precision, int64_t first, int64_t end) {
   static const char *const names[] = {"doubles", "pairs", "triples"};
   const kz_pendulum *pendulum = &drives[drive].pendulum;
   kz_enclosure_tables *tables;
@@ -123,7 +123,8 @@ static bool enclose(int drive, int32_t precision, int64_t first, int64_t end) {
   bool holds = kz_enclosure_tables_create(pendulum, precision, 6, &tables) == KZ_OK;
   if (!holds) return false;
   for (int64_t at = first; at < end; at += BATCH)
-    follow(pendulum, tables, precision == KZ_ENCLOSE_TRIPLES, at, (int)(end - at < BATCH ? end - at : BATCH), of);
+    enclosures_follow(pendulum, tables, precision == KZ_ENCLOSE_TRIPLES, at, (int)(end - at < BATCH ? end - at : BATCH),
+                      of);
   kz_enclosure_tables_free(tables);
   for (int s = 0; s < STAGES; s++) {
     printf("%s, %s, stage %d: %lld outside of %lld, %lld lost; at most %.2g of the reach\n", drives[drive].name,
@@ -138,9 +139,9 @@ int main(int count, char **words) {
   static const int64_t starts[] = {
       [KZ_ENCLOSE_DOUBLES] = 100000, [KZ_ENCLOSE_PAIRS] = 100000, [KZ_ENCLOSE_TRIPLES] = 1000};
   bool hold = true;
-  if (count == 5) return !enclose(atoi(words[1]), atoi(words[2]), atoll(words[3]), atoll(words[4]));
+  if (count == 5) return !enclosures_enclose(atoi(words[1]), atoi(words[2]), atoll(words[3]), atoll(words[4]));
   for (int drive = 0; drive < 3; drive++)
     for (int32_t precision = 0; precision < KZ_ENCLOSURES; precision++)
-      hold = enclose(drive, precision, 0, starts[precision]) && hold;
+      hold = enclosures_enclose(drive, precision, 0, starts[precision]) && hold;
   return !hold;
 }

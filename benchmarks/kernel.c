@@ -29,7 +29,7 @@ typedef struct {
 } probes;
 
 /* Processor time: other processes do not count. */
-static double now(void) {
+static double kernel_now(void) {
   struct timespec t;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
@@ -42,19 +42,19 @@ typedef double lanes __attribute__((vector_size(32)));
 #endif
 
 /* Fused multiply-adds a nanosecond, counted in doubles: more chains than a core has units times their latency. */
-static double peak(void) {
+static double kernel_peak(void) {
   enum { CHAINS = 10, LANES = sizeof(lanes) / sizeof(double), ROUNDS = 1 << 20 };
   double best = 0;
   for (int repeat = 0; repeat < REPEATS; repeat++) {
     lanes sum[CHAINS];
     for (int c = 0; c < CHAINS; c++) sum[c] = (lanes){0} + c;
     const lanes a = (lanes){0} + 0.999, b = (lanes){0} + 0.001;
-    const double start = now();
+    const double start = kernel_now();
     for (int i = 0; i < ROUNDS; i++) {
 #pragma GCC unroll 10
       for (int c = 0; c < CHAINS; c++) sum[c] = sum[c] * a + b;
     }
-    const double taken = now() - start;
+    const double taken = kernel_now() - start;
     double all = 0;
     for (int c = 0; c < CHAINS; c++)
       for (int l = 0; l < LANES; l++) all += sum[c][l];
@@ -64,7 +64,7 @@ static double peak(void) {
 }
 
 /* Starts spread evenly by the additive recurrence of the plastic number. */
-static void spread(int n, double *theta, double *velocity) {
+static void kernel_spread(int n, double *theta, double *velocity) {
   for (int i = 0; i < n; i++) {
     theta[i] = two_pi * (fmod(0.5 + 0.7548776662466927 * i, 1) - 0.5);
     velocity[i] = 2 * fastest * (fmod(0.5 + 0.5698402909980532 * i, 1) - 0.5);
@@ -74,7 +74,7 @@ static void spread(int n, double *theta, double *velocity) {
 static void make_probes(const kz_pendulum *pendulum, probes *p) {
   static kz_reference_state states[PROBES];
   int64_t turns[PROBES];
-  spread(PROBES, p->theta, p->velocity);
+  kernel_spread(PROBES, p->theta, p->velocity);
   kz_reference_start(PROBES, p->theta, p->velocity, NULL, states);
   kz_reference_advance(pendulum, KZ_REFERENCE_STEPS, PROBES, 1, states);
   kz_reference_read(PROBES, states, p->theta1, p->velocity1, turns);
@@ -101,10 +101,10 @@ static bool time_flow(const char *name, double tolerance, const kz_pendulum *pen
     kz_advance(flow, PROBES, 1, probe_theta, probe_velocity, turns);
   }
   for (int repeat = 0; good && repeat < REPEATS; repeat++) {
-    spread(n, theta, velocity);
-    const double start = now();
+    kernel_spread(n, theta, velocity);
+    const double start = kernel_now();
     kz_advance(flow, n, periods, theta, velocity, turns);
-    best = fmin(best, now() - start);
+    best = fmin(best, kernel_now() - start);
   }
   if (good)
     printf("row %s %g %.3f %.3g %d\n", name, tolerance, 1e9 * best / n / periods,
@@ -129,7 +129,7 @@ static bool time_processed(double tolerance, const kz_pendulum *pendulum, const 
   return time_flow("processed", tolerance, pendulum, &numerics, operations, p, n, periods);
 }
 
-static int motion(double t, const double y[], double rate[], void *parameters) {
+static int kernel_motion(double t, const double y[], double rate[], void *parameters) {
   const kz_pendulum *p = parameters;
   rate[0] = y[1];
   rate[1] = -p->beta * y[1] - (p->k - p->m * cos(t)) * sin(y[0]);
@@ -153,16 +153,16 @@ static bool follow_gsl(const gsl_odeiv2_system *system, double tolerance, int n,
 }
 
 static bool time_gsl(double tolerance, const kz_pendulum *pendulum, const probes *p, int periods) {
-  gsl_odeiv2_system system = {motion, NULL, 2, (void *)pendulum};
+  gsl_odeiv2_system system = {kernel_motion, NULL, 2, (void *)pendulum};
   double theta[PROBES], velocity[PROBES], some_theta[SLOW_STATES], some_velocity[SLOW_STATES], best = INFINITY;
   memcpy(theta, p->theta, sizeof theta);
   memcpy(velocity, p->velocity, sizeof velocity);
   bool good = follow_gsl(&system, tolerance, PROBES, 1, theta, velocity);
   for (int repeat = 0; good && repeat < REPEATS; repeat++) {
-    spread(SLOW_STATES, some_theta, some_velocity);
-    const double start = now();
+    kernel_spread(SLOW_STATES, some_theta, some_velocity);
+    const double start = kernel_now();
     good = follow_gsl(&system, tolerance, SLOW_STATES, periods, some_theta, some_velocity);
-    best = fmin(best, now() - start);
+    best = fmin(best, kernel_now() - start);
   }
   if (good)
     printf("row GSL-rk8pd %g %.3f %.3g 0\n", tolerance, 1e9 * best / SLOW_STATES / periods,
@@ -182,7 +182,7 @@ int main(int argc, char **argv) {
   static probes p;
   gsl_set_error_handler_off();
   make_probes(&pendulum, &p);
-  printf("peak %.3f\n", peak());
+  printf("peak %.3f\n", kernel_peak());
   for (int i = 0; i < PROBES; i++)
     printf("state %.17g %.17g %.17g %.17g\n", p.theta[i], p.velocity[i], p.theta1[i], p.velocity1[i]);
   bool good = time_flow("split6-24", 0, &pendulum, &split6, 0, &p, n, periods);

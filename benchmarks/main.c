@@ -25,7 +25,7 @@ static bool read_states(void) {
   return n_states > 0;
 }
 
-static double now(void) {
+static double main_now(void) {
   struct timespec t;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
@@ -40,9 +40,9 @@ static int label_all(const kz_catalogue *catalogue) {
       theta[i] = states[2 * i];
       velocity[i] = states[2 * i + 1];
     }
-    double start = now();
+    double start = main_now();
     long periods = label_states(catalogue, n_states, theta, velocity, labels);
-    printf("%.9f %ld\n", now() - start, periods);
+    printf("%.9f %ld\n", main_now() - start, periods);
     for (size_t i = 0; i < n; i++) printf("%d\n", labels[i]);
   }
   int status = theta && labels ? 0 : 1;

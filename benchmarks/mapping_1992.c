@@ -15,7 +15,7 @@ enum {
 };
 static const double K = 1.0 / 121, BETA = 1.0 / 55, M = 0.3, TWO_PI = 6.28318530717958647692, FASTEST = 2;
 
-static double acceleration(double theta, double velocity, double t) {
+static double mapping_acceleration(double theta, double velocity, double t) {
   return -BETA * velocity - (K - M * cos(t)) * sin(theta);
 }
 
@@ -23,11 +23,11 @@ static void integrate_period(double *theta, double *velocity) {
   const double h = TWO_PI / STEPS;
   for (int i = 0; i < STEPS; i++) {
     const double t = i * h, x = *theta, v = *velocity;
-    const double a1 = acceleration(x, v, t), v2 = v + h / 2 * a1;
-    const double a2 = acceleration(x + h / 2 * v, v2, t + h / 2), v3 = v + h / 2 * a2;
-    const double a3 = acceleration(x + h / 2 * v2, v3, t + h / 2), v4 = v + h * a3;
+    const double a1 = mapping_acceleration(x, v, t), v2 = v + h / 2 * a1;
+    const double a2 = mapping_acceleration(x + h / 2 * v, v2, t + h / 2), v3 = v + h / 2 * a2;
+    const double a3 = mapping_acceleration(x + h / 2 * v2, v3, t + h / 2), v4 = v + h * a3;
     *theta = x + h / 6 * (v + 2 * v2 + 2 * v3 + v4);
-    *velocity = v + h / 6 * (a1 + 2 * a2 + 2 * a3 + acceleration(x + h * v3, v4, t + h));
+    *velocity = v + h / 6 * (a1 + 2 * a2 + 2 * a3 + mapping_acceleration(x + h * v3, v4, t + h));
   }
   *theta -= TWO_PI * rint(*theta / TWO_PI);
 }
@@ -63,7 +63,7 @@ static double seconds_since(clock_t begin) {
 }
 
 /* Follows the starts; returns the seconds. The sum of all ends keeps the compiler from leaving out the work. */
-static double follow(double (*node)[2], double *sum) {
+static double mapping_follow(double (*node)[2], double *sum) {
   const clock_t begin = clock();
   srand(1);
   for (int start = 0; start < STARTS; start++) {
@@ -84,7 +84,8 @@ int main(void) {
   const clock_t begin = clock();
   double (*node)[2] = make_table();
   if (!node) return 1;
-  const double table = seconds_since(begin), mapped = follow(node, &sum), integrated = follow(NULL, &sum);
+  const double table = seconds_since(begin), mapped = mapping_follow(node, &sum),
+               integrated = mapping_follow(NULL, &sum);
   const double share = table * STARTS / CELLS;
   printf(
       "RK4 %.2f us, mapping %.3f us a start and %d periods, table %.2f s; integration over mapping %.0f, with the "

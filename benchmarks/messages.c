@@ -15,7 +15,7 @@ static int by_size(const void *a, const void *b) {
 }
 
 /* Time below which one of ten rounds stays: other work on the machine makes the rest longer. */
-static double decile(double *list, int n) {
+static double messages_decile(double *list, int n) {
   qsort(list, (size_t)n, sizeof *list, by_size);
   return list[n / 10];
 }
@@ -81,8 +81,8 @@ int main(int n, char **words) {
   for (int i = 0; i < rounds; i++) answer[i] = time_answer(rank, buffer);
   for (int i = 0; i < rounds; i++) block[i] = time_block(rank, buffer);
   if (rank == 0)
-    printf("{\"message\": %.3g, \"answer\": %.3g, \"bandwidth\": %.3g}\n", decile(message, rounds),
-           decile(answer, rounds), BLOCK / decile(block, rounds));
+    printf("{\"message\": %.3g, \"answer\": %.3g, \"bandwidth\": %.3g}\n", messages_decile(message, rounds),
+           messages_decile(answer, rounds), BLOCK / messages_decile(block, rounds));
   free(message);
   free(buffer);
   MPI_Finalize();

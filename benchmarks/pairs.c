@@ -90,20 +90,20 @@ typedef struct {
 
 /* The sum of the orders from 1 on; `integrated`: each times h / (n + 1). */
 KZ_INLINE pair sum_of(const kz_speed_class *speed, shape size, const coefficients *x, int p, bool integrated) {
-  vector small = broadcast(0);
+  vector small = broadcast_value(0);
   for (int n = size.order - 1; n >= size.pairs; n--)
-    small += x->coarse[n][p] * (integrated ? broadcast(speed->step[n].high) : broadcast(1));
-  pair total = {small, broadcast(0)};
+    small += x->coarse[n][p] * (integrated ? broadcast_value(speed->step[n].high) : broadcast_value(1));
+  pair total = {small, broadcast_value(0)};
   for (int n = size.pairs - 1; n >= 1; n--) {
-    const pair unit = {broadcast(speed->step[n].high), broadcast(speed->step[n].low)};
+    const pair unit = {broadcast_value(speed->step[n].high), broadcast_value(speed->step[n].low)};
     total = sum_unnormalised(total, integrated ? product_unnormalised(x->fine[n][p], unit) : x->fine[n][p]);
   }
   return quick_two_sum(total.high, total.low);
 }
 
-static void follow(const kz_speed_class *speed, shape size, int64_t periods, place *at) {
+static void pairs_follow(const kz_speed_class *speed, shape size, int64_t periods, place *at) {
   static _Alignas(64) series x;
-  const pair h = {broadcast(speed->step[0].high), broadcast(speed->step[0].low)};
+  const pair h = {broadcast_value(speed->step[0].high), broadcast_value(speed->step[0].low)};
   for (int64_t step = 0; step < periods * size.steps; step++) {
     const int32_t first = (int32_t)(step % size.steps) * speed->order;
     EACH {
@@ -129,13 +129,13 @@ typedef struct {
   place at[N / (PARTS * LANES)];
 } probes;
 
-static void put(__float128 value, pair *x, int lane) {
+static void pairs_put(__float128 value, pair *x, int lane) {
   x->high[lane] = (double)value;
   x->low[lane] = (double)(value - (double)value);
 }
 
 /* Sine and cosine by their series, in quad precision. */
-static void circle(__float128 theta, __float128 *sine, __float128 *cosine) {
+static void pairs_circle(__float128 theta, __float128 *sine, __float128 *cosine) {
   __float128 term = 1;
   *sine = 0, *cosine = 1;
   for (int n = 1; n < 60; n++) {
@@ -160,11 +160,11 @@ static void make_probes(const kz_pendulum *pendulum, probes *p) {
     const int part = i / LANES % PARTS, lane = i % LANES;
     __float128 sine, cosine;
     memcpy(p->image[i], state[i].quads, sizeof p->image[i]);
-    circle(p->start[i][0], &sine, &cosine);
-    put(p->start[i][0], &at->theta[part], lane);
-    put(p->start[i][1], &at->w[part], lane);
-    put(sine, &at->s[part], lane);
-    put(cosine, &at->c[part], lane);
+    pairs_circle(p->start[i][0], &sine, &cosine);
+    pairs_put(p->start[i][0], &at->theta[part], lane);
+    pairs_put(p->start[i][1], &at->w[part], lane);
+    pairs_put(sine, &at->s[part], lane);
+    pairs_put(cosine, &at->c[part], lane);
   }
 }
 
@@ -173,7 +173,7 @@ static double error_of(const kz_speed_class *speed, shape size, const probes *p)
   double largest = 0;
   for (int group = 0; group < N / (PARTS * LANES); group++) {
     place at = p->at[group];
-    follow(speed, size, 1, &at);
+    pairs_follow(speed, size, 1, &at);
     for (int i = 0; i < PARTS * LANES; i++) {
       const int part = i / LANES, lane = i % LANES;
       const __float128 *image = p->image[group * PARTS * LANES + i];
@@ -199,7 +199,7 @@ static kz_speed_class *steps_of(const kz_pendulum *pendulum, int n) {
   return created;
 }
 
-static double now(void) {
+static double pairs_now(void) {
   struct timespec t;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
@@ -209,12 +209,12 @@ static double now(void) {
 static double time_taylor(const kz_speed_class *speed, shape size, const probes *p) {
   double best = INFINITY;
   for (int repeat = 0; repeat < REPEATS; repeat++) {
-    const double begun = now();
+    const double begun = pairs_now();
     for (int group = 0; group < N / (PARTS * LANES); group++) {
       place at = p->at[group];
-      follow(speed, size, PERIODS, &at);
+      pairs_follow(speed, size, PERIODS, &at);
     }
-    best = fmin(best, now() - begun);
+    best = fmin(best, pairs_now() - begun);
   }
   return 1e9 * best / N / PERIODS;
 }
@@ -229,15 +229,16 @@ static double time_splitting(const void *pairs, const probes *p) {
       velocity[2 * i] = (double)p->start[i][1];
       half_turns[2 * i + 1] = velocity[2 * i + 1] = 0;
     }
-    const double begun = now();
+    const double begun = pairs_now();
     kz_test_pairs_advance(pairs, N, PERIODS, half_turns, velocity, turns);
-    best = fmin(best, now() - begun);
+    best = fmin(best, pairs_now() - begun);
   }
   return 1e9 * best / N / PERIODS;
 }
 
 /* Least *number, a part of `size`, with which a period's error is small enough; false: none up to `most`. */
-static bool lower(const kz_speed_class *speed, shape *size, int *number, int most, double tolerance, const probes *p) {
+static bool pairs_lower(const kz_speed_class *speed, shape *size, int *number, int most, double tolerance,
+                        const probes *p) {
   int low = 2, high = most + 1;
   while (low < high) {
     *number = (low + high) / 2;
@@ -251,7 +252,7 @@ static bool lower(const kz_speed_class *speed, shape *size, int *number, int mos
 }
 
 /* The cheapest series whose error is small enough; its nanoseconds, INFINITY: none. */
-static double cheapest(const kz_pendulum *pendulum, double tolerance, const probes *p, shape *best) {
+static double pairs_cheapest(const kz_pendulum *pendulum, double tolerance, const probes *p, shape *best) {
   enum { FEWEST = 8, MOST_STEPS = 64, STRIDE = 4 };
   double least = INFINITY;
   for (int n = FEWEST; n <= MOST_STEPS; n += STRIDE) {
@@ -261,7 +262,7 @@ static double cheapest(const kz_pendulum *pendulum, double tolerance, const prob
     int order = MOST;
     for (; order > 2 && error_of(speed, (shape){n, order, order}, p) <= tolerance; order--)
       size.order = size.pairs = order;
-    if (order < MOST && lower(speed, &size, &size.pairs, size.order, tolerance, p)) {
+    if (order < MOST && pairs_lower(speed, &size, &size.pairs, size.order, tolerance, p)) {
       const double ns = time_taylor(speed, size, p);
       if (ns < least) *best = size;
       least = fmin(least, ns);
@@ -281,7 +282,7 @@ int main(void) {
     shape best = {0};
     void *pairs = kz_test_pairs_create(&pendulum, tolerances[i], fastest, &error);
     if (!pairs) return 1;
-    const double splitting = time_splitting(pairs, &p), taylor = cheapest(&pendulum, tolerances[i], &p, &best);
+    const double splitting = time_splitting(pairs, &p), taylor = pairs_cheapest(&pendulum, tolerances[i], &p, &best);
     printf("row %g %.0f %.0f %.2f %d %d %d\n", tolerances[i], splitting, taylor, taylor / splitting, best.steps,
            best.order, best.pairs);
     kz_test_pairs_free(pairs);

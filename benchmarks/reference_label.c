@@ -47,7 +47,7 @@ static int point_within(const labeller *j, double theta, double velocity) {
 }
 
 /* Takes note of the orbit's strobe state after another period; true where it is settled or out of time. */
-static bool settled(const labeller *j, orbit *o, double theta, double velocity) {
+static bool reference_label_settled(const labeller *j, orbit *o, double theta, double velocity) {
   double d = o->expected >= 0 ? kz_point_distance(theta, velocity, &j->catalogue.points[o->expected]) : INFINITY;
   if (d > j->circle) {
     o->expected = point_within(j, theta, velocity);
@@ -63,13 +63,13 @@ static bool settled(const labeller *j, orbit *o, double theta, double velocity) 
 }
 
 /* Follows n orbits together, each until it settles: the first `left` ones are still under way. */
-static void follow(const labeller *j, int n, kz_reference_state *states, orbit **under_way) {
+static void reference_label_follow(const labeller *j, int n, kz_reference_state *states, orbit **under_way) {
   double theta[BATCH], velocity[BATCH];
   int64_t turns[BATCH];
   for (int left = n; left > 0; kz_reference_advance(&j->catalogue.pendulum, KZ_REFERENCE_STEPS, left, 1, states)) {
     kz_reference_read(left, states, theta, velocity, turns);
     for (int i = left - 1; i >= 0; i--)
-      if (settled(j, under_way[i], theta[i], velocity[i])) {
+      if (reference_label_settled(j, under_way[i], theta[i], velocity[i])) {
         left--;
         states[i] = states[left];
         under_way[i] = under_way[left];
@@ -99,7 +99,7 @@ static int label_batch(const labeller *j) {
     n++;
   }
   kz_reference_start(n, theta, velocity, low[0], states);
-  follow(j, n, states, under_way);
+  reference_label_follow(j, n, states, under_way);
   for (int i = 0; i < n; i++) printf("%d %ld\n", orbits[i].label, orbits[i].periods);
   return n;
 }

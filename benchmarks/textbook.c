@@ -5,7 +5,7 @@
 
 static const double two_pi = 6.28318530717958647692;
 
-static double acceleration(const kz_pendulum *p, double t, double theta, double velocity) {
+static double textbook_acceleration(const kz_pendulum *p, double t, double theta, double velocity) {
   return -p->beta * velocity - (p->k - p->m * cos(t)) * sin(theta);
 }
 
@@ -13,10 +13,10 @@ static void one_period(const kz_pendulum *p, double *theta, double *velocity) {
   const double h = two_pi / STEPS;
   for (int step = 0; step < STEPS; step++) {
     double t = step * h, x = *theta, v = *velocity;
-    double v1 = v, a1 = acceleration(p, t, x, v);
-    double v2 = v + h / 2 * a1, a2 = acceleration(p, t + h / 2, x + h / 2 * v1, v2);
-    double v3 = v + h / 2 * a2, a3 = acceleration(p, t + h / 2, x + h / 2 * v2, v3);
-    double v4 = v + h * a3, a4 = acceleration(p, t + h, x + h * v3, v4);
+    double v1 = v, a1 = textbook_acceleration(p, t, x, v);
+    double v2 = v + h / 2 * a1, a2 = textbook_acceleration(p, t + h / 2, x + h / 2 * v1, v2);
+    double v3 = v + h / 2 * a2, a3 = textbook_acceleration(p, t + h / 2, x + h / 2 * v2, v3);
+    double v4 = v + h * a3, a4 = textbook_acceleration(p, t + h, x + h * v3, v4);
     *theta = x + h / 6 * (v1 + 2 * v2 + 2 * v3 + v4);
     *velocity = v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
   }

@@ -14,7 +14,7 @@ typedef struct {
 } tile;
 
 /* k - m cos t at the 2 STEPS + 1 half steps of a period. */
-static void tabulate(const kz_pendulum *p, double *drive) {
+static void twin_tabulate(const kz_pendulum *p, double *drive) {
   for (int i = 0; i <= 2 * STEPS; i++) drive[i] = p->k - p->m * cos(two_pi * i / (2 * STEPS));
 }
 
@@ -36,7 +36,7 @@ static void one_period(double beta, const double *drive, double *restrict theta,
 }
 
 /* Wraps every lane and finds the strobe point it is near, -1 = none. */
-static void look(const kz_catalogue *c, tile *t) {
+static void twin_look(const kz_catalogue *c, tile *t) {
 #pragma omp simd
   for (int i = 0; i < LANES; i++) {
     t->theta[i] -= two_pi * rint(t->theta[i] / two_pi);
@@ -66,7 +66,7 @@ long label_states(const kz_catalogue *catalogue, long n, const double *theta, co
   double drive[2 * STEPS + 1];
   static tile t;
   long next = 0, left = n, periods = 0;
-  tabulate(&catalogue->pendulum, drive);
+  twin_tabulate(&catalogue->pendulum, drive);
   for (int i = 0; i < LANES; i++) t.cell[i] = -1;
   while (left > 0) {
     for (int i = 0; i < LANES && next < n; i++) {
@@ -78,7 +78,7 @@ long label_states(const kz_catalogue *catalogue, long n, const double *theta, co
       t.running[i] = 0;
       t.age[i] = 0;
     }
-    look(catalogue, &t);
+    twin_look(catalogue, &t);
     for (int i = 0; i < LANES; i++) {
       if (t.cell[i] < 0) continue;
       int label = label_of(catalogue, &t, i);

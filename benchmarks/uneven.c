@@ -17,7 +17,7 @@ typedef struct {
   double slower;
 } load;
 
-static kz_status rest(void *context, int64_t tile, void *record) {
+static kz_status uneven_rest(void *context, int64_t tile, void *record) {
   const load *l = context;
   const double seconds = l->slower * l->seconds[tile];
   struct timespec time = {.tv_sec = (time_t)seconds, .tv_nsec = (long)(1e9 * fmod(seconds, 1))};
@@ -40,7 +40,7 @@ static kz_status read_load(const char *path, load *l) {
   return whole ? KZ_OK : kz_fail(KZ_REFUSED, "%s: cannot be read as numbers", path);
 }
 
-static kz_status run(kz_ranks *ranks, const char *path, double slower) {
+static kz_status uneven_run(kz_ranks *ranks, const char *path, double slower) {
   load l = {.slower = kz_ranks_count(ranks) > 1 && kz_rank(ranks) == kz_ranks_count(ranks) - 1 ? slower : 1};
   kz_status status = read_load(path, &l);
   char *records = calloc((size_t)l.n + 1, 1);
@@ -57,7 +57,7 @@ int main(int n, char **words) {
   kz_ranks *ranks = NULL;
   kz_status status = n == 3 ? KZ_OK : kz_fail(KZ_REFUSED, "usage: uneven FILE SLOWER");
   if (status == KZ_OK) status = kz_ranks_start(&n, &words, &ranks);
-  if (status == KZ_OK) status = run(ranks, words[1], atof(words[2]));
+  if (status == KZ_OK) status = uneven_run(ranks, words[1], atof(words[2]));
   if (status != KZ_OK) fprintf(stderr, "uneven: %s\n", kz_message());
   kz_ranks_end(ranks);
   return (int)status;

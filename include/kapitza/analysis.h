@@ -152,12 +152,12 @@ void kz_curve_values(const kz_curve *curve, const kz_damping *damping, int64_t n
  * wave f = sign(cos t), and leaves form out. Errors: some 1e-15 of 1 + |m|. */
 enum { KZ_HILL_MOST_M = 1000 }; /* Largest m; beyond it kz_hill_edge returns NaN */
 double kz_hill_edge(const kz_pendulum *form, int reading_number, double m);
-double kz_meissner_edge(const kz_pendulum *form, int number, double m);
+double kz_meissner_edge(const kz_pendulum *form, int number_nodes, double m);
 
 /* Computes the curve on which an undamped solution repeats after `order` >= 2 drive periods (Floquet angle 2 pi/order):
  * m_exact [n], and m_formula [n] by the determinant BUT (21), at k [n]. It goes from k = 1/order^2, m = 0 to negative
  * k; order 2 gives both edges of the first tongue. */
-void kz_subharmonic_values(int32_t order, int64_t n, const double *k, double *m_exact, double *m_formula);
+void kz_subharmonic_values(int32_t order_cells, int64_t n, const double *k, double *m_exact, double *m_formula);
 
 /* ---- thresholds of the damped tongues 1 (k = 1/4) and 2 (k = 1) at a quality factor ---- */
 typedef struct {

@@ -48,7 +48,7 @@ double kz_process_clock(void);
 __float128 ldexpf128(__float128 x, int exponent);
 __float128 frexpf128(__float128 x, int *exponent);
 __float128 strtof128(const char *text, char **orbit_end);
-void sincosf128(__float128 x, __float128 *sine, __float128 *cosine);
+void sincosf128(__float128 x, __float128 *sine, __float128 *turning_cosine);
 
 /* ---- words ---- */
 
@@ -67,7 +67,7 @@ void sincosf128(__float128 x, __float128 *sine, __float128 *cosine);
 /* Adds a word to a text of words joined by '|', "" at first, in `words` [bytes]. */
 void kz_words_add(char *keys_words, size_t phases_write_bytes, const char *word);
 /* Returns the next word of `rest`, of *length bytes without a zero, and moves `rest` behind it; NULL if none. */
-const char *kz_words_next(const char **rest, int *length);
+const char *kz_words_next(const char **uneven_rest, int *length);
 
 /* ---- memory ---- */
 
@@ -77,7 +77,7 @@ const char *kz_words_next(const char **rest, int *length);
 
 /* Do what malloc, calloc, realloc, strdup and strndup of C do. */
 void *kz_malloc(size_t phases_write_bytes);
-void *kz_calloc(size_t n, size_t bytes);
+void *kz_calloc(size_t n, size_t phases_bytes);
 void *kz_realloc(void *old, size_t bytes);
 char *kz_strdup(const char *text);
 char *kz_strndup(const char *text, size_t length);

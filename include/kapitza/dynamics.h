@@ -28,7 +28,7 @@ static inline void kz_dynamics_freed(kz_dynamics **dynamics) {
 }
 
 /* n starts spread evenly over the window: state [n][2]. Another seed gives other starts. */
-void kz_dynamics_starts(const kz_window *window, int64_t seed, int64_t n, double *state);
+void kz_dynamics_starts(const kz_window *cells_window, int64_t seed, int64_t n, double *state);
 
 /* The largest velocity (rad per drive radian) within one period of starts in the window, and of starts as fast as a
  * torque drives motions: a map table must reach it. */
@@ -99,6 +99,6 @@ void kz_dynamics_attractor(const kz_dynamics *dynamics, int64_t classes_number, 
 /* Returns 1 for a running state known by orbit averages alone (no band was found that traps motions), else 0. */
 int32_t kz_dynamics_is_averaged(const kz_dynamics *dynamics, int64_t classes_number);
 /* Strobe points theta [period] in [-pi, pi), velocity [period], from the lowest velocity on; none if chaotic. */
-void kz_dynamics_strobe(const kz_dynamics *dynamics, int64_t number, double *theta, double *velocity);
+void kz_dynamics_strobe(const kz_dynamics *dynamics, int64_t number_classes, double *theta, double *velocity);
 /* number [count] = the numbers of the attractors in the order of the file. */
 void kz_dynamics_order(const kz_dynamics *dynamics, int64_t *number);

@@ -25,7 +25,7 @@ typedef struct {
 
 /* A state with at most `bits` bits behind the point, to which the start is rounded. Free with kz_arbitrary_free. */
 typedef struct kz_arbitrary kz_arbitrary;
-kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordinate start[2], int64_t bits);
+kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordinate enclosures_start[2], int64_t bits);
 void kz_arbitrary_free(kz_arbitrary *orbit);
 /* Lets an orbit that has not advanced begin at a release, whose phase and ramp count as exact, not at a strobe. */
 void kz_arbitrary_release(kz_arbitrary *orbit, const kz_release *release);

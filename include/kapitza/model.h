@@ -39,7 +39,7 @@ typedef struct {
 enum { KZ_SINE = 0, KZ_SQUARE = 1, KZ_TRIANGLE = 2, KZ_SAMPLES = 3 };
 
 /* Upper bound of |a(t)| + |b(t)| + |torque| + |torque_amplitude| over all t. */
-double kz_stiffness(const kz_pendulum *pendulum);
+double kz_stiffness(const kz_pendulum *described_pendulum);
 
 /* Symmetries, by which -theta(t), -theta(t + pi) or pi + theta(t + pi) is a motion if theta(t) is one. */
 enum { KZ_SYMMETRY_MIRROR = 1, KZ_SYMMETRY_HALF_PERIOD = 2, KZ_SYMMETRY_HALF_TURN = 4 };

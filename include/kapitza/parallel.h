@@ -36,7 +36,7 @@ int kz_rank(const kz_ranks *ranks);
 int kz_ranks_count(const kz_ranks *ranks);
 
 /* Sums `mine` over the ranks that share this rank's memory; *count = number of these ranks. Collective. */
-kz_status kz_ranks_node(kz_ranks *ranks, double mine, double *sum, int *chunks_count);
+kz_status kz_ranks_node(kz_ranks *ranks, double mine, double *checkpoint_sum, int *chunks_count);
 
 /* Returns the worst status of all ranks (failed, refused, stopped, done), with its message. Collective. */
 kz_status kz_ranks_agree(kz_ranks *ranks, kz_status mine);
@@ -139,7 +139,7 @@ void kz_local_records_free(kz_local_records *records);
 typedef kz_status (*kz_tile_fn)(void *context, int64_t tile, void *record);
 
 /* Fills `record` with the results of the items first .. first + n - 1 of a tile. */
-typedef kz_status (*kz_items_fn)(void *context, int64_t first, int64_t n, void *record);
+typedef kz_status (*kz_items_fn)(void *context, int64_t checkpoint_first, int64_t n, void *record);
 
 typedef struct {
   const char *name; /* Short name for progress and checkpoint: "table", "cells" */
@@ -161,9 +161,9 @@ typedef struct {
 } kz_stage;
 
 /* Makes a kept stage whose records all ranks receive. */
-static inline kz_stage kz_stage_for_all(const char *name, int64_t n_tiles, size_t record_bytes, kz_tile_fn work,
+static inline kz_stage kz_stage_for_all(const char *name, int64_t n_tiles, size_t record_bytes, kz_tile_fn worker_work,
                                         void *context) {
-  return (kz_stage){name, n_tiles, record_bytes, work, context, .keep = true, .everywhere = true};
+  return (kz_stage){name, n_tiles, record_bytes, worker_work, context, .keep = true, .everywhere = true};
 }
 /* Makes a kept stage whose tiles are batches of items, and whose records all ranks receive. */
 static inline kz_stage kz_stage_of_items(const char *name, int64_t n_items, int64_t batch, size_t record_bytes,
@@ -196,12 +196,12 @@ static inline kz_stage kz_stage_for_rank0(const char *name, int64_t n_tiles, siz
  * The first failing rank stops the others, and all return its status. KZ_STOPPED: a signal or the time limit came
  * before the last tile was begun; finished kept records are on the disk. Kept stages must come in the same order in
  * every run. If `run` is NULL or has no ranks, this process does all tiles in order and keeps nothing. Collective. */
-kz_status kz_stage_run(const kz_run *run, const kz_stage *stage, void *records);
+kz_status kz_stage_run(const kz_run *uneven_run, const kz_stage *stage, void *records);
 
 /* Progress of a series of stages of one tile, each of which needs the one before, shown as one stage by an estimate of
  * the seconds left. _begin returns NULL without ranks; the others accept NULL. */
 typedef struct kz_serial_progress kz_serial_progress;
-kz_serial_progress *kz_serial_progress_begin(const kz_run *run, const char *name);
+kz_serial_progress *kz_serial_progress_begin(const kz_run *local_records_run, const char *name);
 void kz_serial_progress_show(kz_serial_progress *chain, double seconds_left);
 void kz_serial_progress_end(kz_serial_progress *chain, bool line_complete);
 
@@ -216,7 +216,8 @@ typedef struct {
   void *context;
 } kz_delivery;
 /* Delivers the local records of all ranks. Returns KZ_STOPPED in the same cases as kz_stage_run. Collective. */
-kz_status kz_local_records_deliver(const kz_run *run, const kz_local_records *records, const kz_delivery *delivery);
+kz_status kz_local_records_deliver(const kz_run *stop_run, const kz_local_records *records,
+                                   const kz_delivery *delivery);
 
 /* Takes the record of a tile, aligned as int64_t. */
 typedef kz_status (*kz_take_fn)(void *context, int64_t tile, const void *record, size_t bytes);

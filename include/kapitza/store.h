@@ -53,7 +53,7 @@ void kz_store_discard(kz_store *store);
 /* Write an attribute of a group ("/" = root, "basin" or "/basin"). Text may have any length, also over 64 KiB. */
 kz_status kz_store_text(kz_store *store, const char *group, const char *name, const char *arrange_value);
 kz_status kz_store_real(kz_store *store, const char *group, const char *name, double arrange_value);
-kz_status kz_store_integer(kz_store *store, const char *group, const char *name, int64_t value);
+kz_status kz_store_integer(kz_store *store, const char *group, const char *name, int64_t cubic_value);
 
 /* Writes a dimension of a group as its scale variable. `values` [length] have the type that the table gives to the
  * variable of that name; NULL = 0, 1, 2, ... */

@@ -79,7 +79,8 @@ kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, c
  * the scene's window: label [n], whose ids are those of *catalogue (-1 = not settled, no second candidate);
  * start_error: bound of the starts' own errors, rad; error [n]: bound of the orbit's error when it was trapped, rad. */
 kz_status kz_engine_labels(kz_engine *engine, const kz_scene *scene, int64_t n, const double (*start)[2],
-                           double start_error, kz_label *label, double *error, const kz_live_catalogue **catalogue);
+                           double start_error, kz_label *engine_label, double *error,
+                           const kz_live_catalogue **catalogue);
 
 /* Picture of a plane of two keys: periods and centres of final states, and values of the group /plane, x fastest;
  * period KZ_NO_LABEL = not settled, or no pendulum. */

@@ -6,13 +6,14 @@
 >>> result.at("175 deg", 0)["name"]                        # what the map says of a start; result.labels() is an xarray
 >>> result.plot(centre="inverted")                         # matplotlib
 >>> result.compare(kapitza.run("scenes/small.yaml"))
->>> kapitza.explore("scenes/small.yaml")                   # in a cell of a notebook: the basins, to be zoomed and dragged
+>>> kapitza.explore("scenes/small.yaml") # in a cell of a notebook: the basins, to be zoomed and dragged
 >>> kapitza.where("scenes/small.yaml", [3.1, 3.0], "0.2")  # where single starts end
->>> pendulum = kapitza.Pendulum(Q=5, Omega=11, epsilon=0.3)  # in this process: .map, .attractors, .where, .basin, .cycles, .orbit ...
+>>> pendulum = kapitza.Pendulum(Q=5, Omega=11, epsilon=0.3) # in this process: .map, .attractors, .where, .basin,
+.cycles, .orbit ...
 >>> pendulum.basin(theta=300, velocity=(-2, 2, 300)).kapitza.plot()
 
-A result that is there already: kapitza.Result("blackburn-fig12.h5"). kapitza.plots has the panels of the pictures; each of its draw_*
-functions takes and returns a matplotlib Axes.
+A result that is there already: kapitza.Result("blackburn-fig12.h5"). kapitza.plots has the panels of the pictures; each
+of its draw_* functions takes and returns a matplotlib Axes.
 """
 
 import importlib
@@ -34,13 +35,16 @@ if TYPE_CHECKING:
 
     __version__: str
 
-__all__ = ["BadFile", "Engine", "Pendulum", "Result", "RunError", "SceneError", "check", "explore", "film", "fit", "manifolds", "needs",
-           "orbit", "run", "sweep", "tangency", "wada", "where"]
+__all__ = ["BadFile", "Engine", "Pendulum", "Result", "RunError", "SceneError", "check", "explore", "film", "fit",
+           "manifolds", "needs", "orbit", "run", "sweep", "tangency", "wada", "where"]
 
-# The module of each name: modules are loaded when one of their names is first used, because pandas and xarray take most of a second.
+# The module of each name: modules are loaded when one of their names is first used, because pandas and xarray take most
+# of a second.
 _MODULES = {name: module for module, names in {
-    "boundaries.manifolds": "manifolds", "boundaries.tangency": "tangency", "boundaries.wada": "wada", "engine": "Engine",
-    "explorer.notebook": "explore", "films": "film", "fitting": "fit", "pendulum": "Pendulum", "program": "RunError SceneError",
+    "boundaries.manifolds": "manifolds", "boundaries.tangency": "tangency", "boundaries.wada": "wada",
+    "engine": "Engine",
+    "explorer.notebook": "explore", "films": "film", "fitting": "fit", "pendulum": "Pendulum",
+    "program": "RunError SceneError",
     "result": "BadFile Result", "session": "check needs orbit run sweep where"}.items() for name in names.split()}
 
 

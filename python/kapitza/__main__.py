@@ -10,7 +10,8 @@ COMMANDS = {"plot": "kapitza.command", "info": "kapitza.representation", "fit": 
 if __name__ == "__main__":
     name, *sys.argv[1:] = sys.argv[1:] or [""]
     if name not in COMMANDS:
-        print(f"kapitza: error: {name!r} is no command of the package; it must be {', '.join(COMMANDS)}", file=sys.stderr)
+        print(f"kapitza: error: {name!r} is no command of the package; it must be {', '.join(COMMANDS)}",
+              file=sys.stderr)
         sys.exit(2)
     try:
         module = importlib.import_module(COMMANDS[name])

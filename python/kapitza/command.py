@@ -1,5 +1,6 @@
-"""kapitza plot [KIND] FILE: one table says which function draws which kind of result, reports on it, opens it to ParaView, or
-makes a film of pictures. Without KIND the main study of the file is drawn. The command kapitza-plot does the same."""
+"""kapitza plot [KIND] FILE: one table says which function draws which kind of result, reports on it, opens it to
+ParaView, or makes a film of pictures. Without KIND the main study of the file is drawn. The command kapitza-plot does
+the same."""
 
 import sys
 from collections.abc import Callable

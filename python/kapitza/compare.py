@@ -15,11 +15,13 @@ if TYPE_CHECKING:
 
     from kapitza.result import Result
 
-FARTHEST = 0.5  # strobe points of one attractor under two pendulums are nearer than this on average (rad, rad per drive radian)
+# Strobe points of one attractor under two pendulums are nearer than this on average (rad, rad per drive radian)
+FARTHEST = 0.5
 
 
 def match_attractors(mine: pandas.DataFrame, others: pandas.DataFrame) -> dict[int, int]:
-    """My id -> id of the same attractor among the others, by the distance of their strobe points; the nearest pairs first, each once.
+    """My id -> id of the same attractor among the others, by the distance of their strobe points; the nearest pairs
+    first, each once.
 
     Attractors.jl calls it match_statespacesets. Only motions of the same period, winding and centre are joined.
     """
@@ -38,7 +40,8 @@ def match_attractors(mine: pandas.DataFrame, others: pandas.DataFrame) -> dict[i
 
 
 def _distance(one: pandas.Series, other: pandas.Series) -> float:
-    """Mean distance of the points of one set from the nearest of the other, the larger way round; chaotic sets by where they are listed."""
+    """Mean distance of the points of one set from the nearest of the other, the larger way round; chaotic sets by where
+    they are listed."""
     a, b = (np.column_stack([row["strobe_theta"], row["strobe_velocity"]]) for row in (one, other))
     if not len(a) or not len(b):
         return 0.0 if len(a) == len(b) else np.inf
@@ -62,22 +65,26 @@ class Comparison:
 
     @cached_property
     def table(self) -> pandas.DataFrame:
-        """A table with a row for each attractor: its name (both names, if they differ), its ids in both results (missing if it has none),
-        its fractions in both, and their difference."""
+        """A table with a row for each attractor: its name (both names, if they differ), its ids in both results
+        (missing if it has none), its fractions in both, and their difference."""
         mine, others = self.first.attractors, self.second.attractors
         shares = self.first.basins_fractions(), self.second.basins_fractions()
-        names = {one: " → ".join(dict.fromkeys([mine["name"][one], others["name"][other]])) for one, other in self.matched.items()}
+        names = {one: " → ".join(dict.fromkeys([mine["name"][one], others["name"][other]])) for one,
+                 other in self.matched.items()}
         rows = [(names.get(one, mine["name"][one]), one, self.matched.get(one)) for one in mine.index]
         rows += [(others["name"][other], None, other) for other in others.index if other not in self.matched.values()]
-        table = pandas.DataFrame(rows, columns=["name", "first", "second"]).astype({"first": "Int64", "second": "Int64"})
+        table = pandas.DataFrame(rows,
+                                 columns=["name", "first", "second"]).astype({"first": "Int64", "second": "Int64"})
         for side, share in zip(("first", "second"), shares, strict=True):
-            table[f"fraction_{side}"] = [0.0 if pandas.isna(index) else float(share.get(index, 0.0)) for index in table[side]]
+            table[f"fraction_{side}"] = [0.0 if pandas.isna(index) else float(share.get(index, 0.0))
+                                         for index in table[side]]
         table["difference"] = table["fraction_second"] - table["fraction_first"]
         return table
 
     @cached_property
     def _labels(self) -> tuple[xarray.DataArray, xarray.DataArray]:
-        """The labels of both on one grid: along each axis that of the result with fewer cells, whose centres are looked up in the other."""
+        """The labels of both on one grid: along each axis that of the result with fewer cells, whose centres are looked
+        up in the other."""
         pair = self.first.labels(), self.second.labels()
         if all(np.array_equal(pair[0][name], pair[1][name]) for name in pair[0].dims):
             return pair
@@ -94,19 +101,21 @@ class Comparison:
 
     @cached_property
     def differing(self) -> xarray.DataArray:
-        """True for every cell that ends on another attractor in the second result. Of two grids over one window the coarser one counts: the
-        other result says where the centres of its cells end.
+        """True for every cell that ends on another attractor in the second result. Of two grids over one window the
+        coarser one counts: the other result says where the centres of its cells end.
 
         :raises ValueError: if the two windows are not the same
         """
         labels, others = self._labels
-        return xarray.DataArray(self._renamed(labels.values) != others.values, labels.coords, labels.dims, name="differing")
+        return xarray.DataArray(self._renamed(labels.values) != others.values, labels.coords, labels.dims,
+                                name="differing")
 
     @property
     def cells(self) -> xarray.Dataset:
         """`differing` with what a picture needs to know of the window."""
         basin = self.first.group("basin")
-        return basin.assign(differing=self.differing) if self.differing.shape == basin["attractor"].shape else self.differing.to_dataset()
+        return (basin.assign(differing=self.differing)
+                if self.differing.shape == basin["attractor"].shape else self.differing.to_dataset())
 
     def _renamed(self, labels: np.ndarray) -> np.ndarray:
         """Labels of the first by the ids of the second; -2 = an attractor that the second lacks."""
@@ -119,15 +128,16 @@ class Comparison:
         return float(self.differing.mean())
 
     def tipping_probabilities(self) -> pandas.DataFrame:
-        """P[i, j]: of the basin of attractor i in the first, the share that lies in the basin of j in the second (as of Attractors.jl)."""
+        """P[i, j]: of the basin of attractor i in the first, the share that lies in the basin of j in the second (as of
+        Attractors.jl)."""
         first, second = (labels.values.ravel() for labels in self._labels)
         table = pandas.crosstab(first, second, normalize="index")
         names = [{-1: "not settled", **dict(enumerate(result.names))} for result in (self.first, self.second)]
         return table.rename(index=names[0], columns=names[1]).rename_axis(index="first", columns="second")
 
     def plot(self, **options: Any) -> "Figure":
-        """Both basins, and where they differ: a figure. Options as of `kapitza plot compare`, such as width ("178mm", or inches) and centre
-        ("down" or "inverted")."""
+        """Both basins, and where they differ: a figure. Options as of `kapitza plot compare`, such as width ("178mm",
+        or inches) and centre ("down" or "inverted")."""
         from kapitza.plots.picture import picture
         return picture(self.first, "compare", other=self.second, **options)
 

@@ -24,7 +24,8 @@ def labelled(variables: Mapping[str, Any], attractors: xarray.Dataset) -> xarray
     found = xarray.Dataset(dict(variables)).merge(attractors.assign_coords(id=np.arange(attractors.sizes["id"])))
     for name in ("attractor", "other_attractor"):
         found[name].attrs = {"flag_values": np.arange(-1, attractors.sizes["id"], dtype=np.int16),
-                             "flag_meanings": " ".join(["not_settled", *flag_words([str(name) for name in attractors["name"].values])])}
+                             "flag_meanings": " ".join([
+                                 "not_settled", *flag_words([str(name) for name in attractors["name"].values])])}
     found["evidence"].attrs = layout.attributes("basin", "evidence")
     for name, (unit, words) in _ABOUT.items():
         if name in found.variables:
@@ -37,11 +38,12 @@ def labelled(variables: Mapping[str, Any], attractors: xarray.Dataset) -> xarray
 def of_basin(library: Library, basin: Any) -> xarray.Dataset:
     """A kapitza_basin."""
     shape = (basin.rows, basin.columns)
-    kinds = {"attractor": ("attractor", np.int16), "settling_time": ("settling_time", np.float32), "evidence": ("evidence", np.uint8),
-             "other_attractor": ("other", np.int16), "turns": ("turns", np.float32)}
+    kinds = {"attractor": ("attractor", np.int16), "settling_time": ("settling_time", np.float32),
+             "evidence": ("evidence", np.uint8), "other_attractor": ("other", np.int16), "turns": ("turns", np.float32)}
     planes = {name: library.array(getattr(basin, field), shape[0] * shape[1], kind).reshape(shape)
               for name, (field, kind) in kinds.items()}
-    axes = {"velocity": library.array(basin.velocity, shape[0], float), "theta": library.array(basin.theta, shape[1], float)}
+    axes = {"velocity": library.array(basin.velocity, shape[0], float),
+            "theta": library.array(basin.theta, shape[1], float)}
     variables = {name: (("velocity", "theta"), plane) for name, plane in planes.items()}
     attractors = library._cycles(basin.attractors[0], "id")
     return labelled({name: (name, values) for name, values in axes.items()} | variables, attractors)
@@ -70,8 +72,8 @@ class Accessor:
         counts = np.bincount(np.where(labels < 0, len(names) - 1, labels).ravel(), minlength=len(names))
         return pandas.Series(counts / labels.size, index=names, name="fraction")
 
-    def plot(self, ax: "Axes | None" = None, *, quantity: str = "attractor", colours: Sequence[str] | Mapping[str, str] | None = None,
-             centre: str = "down", legend: bool = True, **options: Any) -> "Axes":
+    def plot(self, ax: "Axes | None" = None, *, quantity: str = "attractor", colours: Sequence[str] | Mapping[str, str]
+             | None = None, centre: str = "down", legend: bool = True, **options: Any) -> "Axes":
         """Draws a basin.
 
         >>> kapitza.Pendulum(Q=5, Omega=11, epsilon=0.3).basin().kapitza.plot(colours={"inverted": "gold"})

@@ -11,8 +11,8 @@ from kapitza.result import BadFile
 
 
 def run_script(main: Callable[[], None]) -> None:
-    """Calls main() and ends the script: one line and status 1 for a file that cannot be used, or a picture that cannot be written; 2 for
-    a scene that is refused."""
+    """Calls main() and ends the script: one line and status 1 for a file that cannot be used, or a picture that cannot
+    be written; 2 for a scene that is refused."""
     try:
         main()
         sys.stdout.flush()
@@ -35,7 +35,8 @@ def run_apart(main: Callable[[], None]) -> None:
         _, status = os.waitpid(child, 0)
         errors.seek(0)
         said = errors.read().decode(errors="replace")
-    if os.WIFSIGNALED(status) and os.WTERMSIG(status) in (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL):
+    if os.WIFSIGNALED(status) and os.WTERMSIG(status) in (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE,
+                                                          signal.SIGILL):
         print("kapitza: error: the file is damaged: reading it crashed the HDF5 library", file=sys.stderr)
         sys.exit(1)
     sys.stderr.write(said)

@@ -1,7 +1,7 @@
 """Which figure comes from which scene drawn how: the one table behind scripts/reproduce.
 
-A row is a scene of scenes/, named after the paper and its figure (docs/explanation/theory.md), and its figures: (suffix of the name,
-kind, options).
+A row is a scene of scenes/, named after the paper and its figure (docs/explanation/theory.md), and its figures: (suffix
+of the name, kind, options).
 """
 
 from kapitza.boundaries.manifolds import manifolds
@@ -136,7 +136,8 @@ def _add_boundaries(result: Result) -> Result:
         return result.add("tangency", tangency(pendulum, "m", 0.04, 0.08))
     cycles = result.group("saddles")
     if result.path.stem == "wada-forced":
-        return result.add("manifolds", manifolds(pendulum, cycles.isel(saddle=[0]), kind="unstable", length=12, max_speed=10))
+        return result.add("manifolds", manifolds(pendulum, cycles.isel(saddle=[0]), kind="unstable", length=12,
+                                                 max_speed=10))
     return result.add("manifolds", manifolds(pendulum, cycles, kind="stable", length=14))
 
 
@@ -148,7 +149,8 @@ _NARROW = {"blackburn-fig04-dots", "blackburn-fig06-omega11", "square-wave", "ti
            "start-phase-common", "tradeoff-fig12", "tradeoff-fig13"}
 
 # (name, scene, kind, options); a scene is run once for all its figures.
-FIGURES = [(scene.rpartition("/")[2] + suffix, scene, kind, [*options, *(COLUMN if scene + suffix in _NARROW else PAGE)])
+FIGURES = [(scene.rpartition("/")[2] + suffix, scene, kind,
+            [*options, *(COLUMN if scene + suffix in _NARROW else PAGE)])
            for scene, rows in _SCENES.items() for suffix, kind, options in rows]
 
 # Name -> (page of docs/tutorials, result that its commands make, kind, options).

@@ -24,8 +24,8 @@ PANEL = (0.09, 0.13, 0.64, 0.76)  # left, bottom, width, height: parts of the pi
 GIF_COLOURS = 128
 
 
-def film(scene: SceneLike, key: str, values: Iterable[Any], output: str | os.PathLike[str] = "film.mp4", *, rate: float = 12,
-         ranks: int = 1, set: Mapping[str, Any] | None = None, centre: str = "inverted") -> Path:
+def film(scene: SceneLike, key: str, values: Iterable[Any], output: str | os.PathLike[str] = "film.mp4", *,
+         rate: float = 12, ranks: int = 1, set: Mapping[str, Any] | None = None, centre: str = "inverted") -> Path:
     """Makes a film of the scene's basins, with one picture for each value of a key, and returns its path.
 
     :param key: the key that changes, such as "pendulum.drive_amplitude"
@@ -76,7 +76,8 @@ def kind_entries(result: Result) -> list[tuple[str, str, float]]:
     from kapitza import style
 
     table, labels = result.group("attractors"), result.group("basin")["attractor"].values
-    kinds = [style.kind(*row) for row in zip(*(table[name].values for name in ("period", "winding", "centre")), strict=True)]
+    kinds = [style.kind(*row) for row in zip(*(table[name].values for name in ("period", "winding", "centre")),
+                                             strict=True)]
     shares = dict.fromkeys(style.KINDS, 0.0)
     for index, kind in enumerate(kinds):
         shares[kind] += float(np.mean(labels == index))
@@ -85,8 +86,8 @@ def kind_entries(result: Result) -> list[tuple[str, str, float]]:
 
 
 def write_film(output: str | os.PathLike[str], pictures: Iterable[Image.Image], rate: float) -> Path:
-    """Writes pictures of one size as MP4, or as GIF: where the name says so, or ffmpeg is not installed. The film stands under its name
-    when it is complete."""
+    """Writes pictures of one size as MP4, or as GIF: where the name says so, or ffmpeg is not installed. The film
+    stands under its name when it is complete."""
     path = Path(output)
     is_gif = path.suffix.lower() == ".gif" or not shutil.which("ffmpeg")
     path = path.with_suffix(".gif") if is_gif else path
@@ -114,8 +115,10 @@ def _write_mp4(path: Path, pictures: Iterable[Image.Image], rate: float) -> None
 
 def _ffmpeg(path: Path, size: tuple[int, int], rate: float) -> list[str]:
     """H.264 wants even sizes."""
-    pictures = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}", "-framerate", f"{rate:g}", "-i", "-"]
-    film = ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-preset", "veryfast", "-pix_fmt", "yuv420p", "-f", "mp4"]
+    pictures = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}", "-framerate", f"{rate:g}", "-i",
+                "-"]
+    film = ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-preset", "veryfast", "-pix_fmt", "yuv420p", "-f",
+            "mp4"]
     return ["ffmpeg", "-y", "-loglevel", "error", *pictures, *film, str(path)]
 
 

@@ -1,4 +1,5 @@
-"""A pendulum from a recorded track: natural frequency, damping and their errors, by least squares on the equation of motion."""
+"""A pendulum from a recorded track: natural frequency, damping and their errors, by least squares on the equation of
+motion."""
 
 import math
 from functools import cached_property
@@ -14,8 +15,10 @@ from kapitza.units import HERTZ, TURN, angle, quantity
 GRAVITY = 9.80665        # m/s^2
 CERTAIN = 10.83          # of the F statistic of one more number: less happens to 1 in 1000 tracks by chance
 ALIKE = 0.5              # correlation of neighbouring residuals, from which on the model does not describe the track
-LINE = 20.0              # strongest line in the spectrum of residuals, in means: noise has a stronger one in 1 of 10^6 tracks
-SHARES = 0.05, 0.01      # of the swing in the residuals, from which on such a track is refused: of a free decay, of a driven track
+# Strongest line in the spectrum of residuals, in means: noise has a stronger one in 1 of 10^6 tracks
+LINE = 20.0
+# Of the swing in the residuals, from which on such a track is refused: of a free decay, of a driven track
+SHARES = 0.05, 0.01
 DETERMINED = 0.1         # largest error of the natural frequency, in natural frequencies
 
 # Model -> the kinds of damping that it has.
@@ -24,8 +27,8 @@ MODELS = {"viscous": ("viscous",), "viscous + quadratic": ("viscous", "quadratic
 
 
 class Fit:
-    """What a track says of its pendulum. `models` are the fits with more and more kinds of damping; `best` is the simplest of them that no
-    larger one improves beyond chance.
+    """What a track says of its pendulum. `models` are the fits with more and more kinds of damping; `best` is the
+    simplest of them that no larger one improves beyond chance.
 
     :param time: times in s, ascending
     :param theta: angles in rad from any zero near the rest position; jumps of a turn are removed (`jumps` counts them)
@@ -93,7 +96,8 @@ class Fit:
             noise = float(np.sqrt(np.mean(np.diff(best.left) ** 2) / 2))
             raise ValueError(
                 f"no model describes the track: {best.name} leaves {1e3 * best.residual:.3g} mrad of swings of "
-                f"{1e3 * np.std(self.theta):.3g} mrad, neighbours differ by {1e3 * noise:.3g} mrad, and that is no noise; "
+                f"{1e3 * np.std(self.theta):.3g} mrad, neighbours differ by {1e3 * noise:.3g} mrad, and that is no "
+                "noise; "
                 f"{'check the frequency of the drive, ' if self.omega else ''}give a part of it or record more samples")
         for other in minima[1:]:
             apart = abs(other.values["omega0"] - minima[0].values["omega0"])
@@ -123,8 +127,8 @@ class Fit:
         return models[-1]
 
     def quality_factor(self, amplitude: Any = None) -> float:
-        """Q of the viscous damping that loses as much energy in a swing of this amplitude: rad, or a text such as "10 deg"; None = 10 deg,
-        or the largest swing of the track if that is smaller."""
+        """Q of the viscous damping that loses as much energy in a swing of this amplitude: rad, or a text such as "10
+        deg"; None = 10 deg, or the largest swing of the track if that is smaller."""
         values, swing = self.best.values, angle(f"{min(10.0, self.largest)} deg" if amplitude is None else amplitude)
         if not 0 < swing < math.pi:
             raise ValueError(f"the amplitude {amplitude!r} must be above 0 and below 180 deg")
@@ -161,7 +165,8 @@ class Fit:
         if amplitude is None and "drive" in self.best.values:
             amplitude = f"{abs(self.best.values['drive']) * self.length:.9g} m"
         if frequency is None or amplitude is None:
-            raise ValueError("a free decay knows no shaker: give frequency and amplitude, such as frequency='50 Hz', amplitude='8 mm'")
+            raise ValueError("a free decay knows no shaker: give frequency and amplitude, such as frequency='50 Hz', "
+                             "amplitude='8 mm'")
         quality = self.quality_factor(swing)
         if math.isinf(quality):  # which a scene has not: the least that the track allows
             values, errors = self.best.values, self.best.errors
@@ -177,19 +182,25 @@ class Fit:
         best, viscous = self.best, self.models["viscous"]
         if best is not viscous:
             part = best.residual / viscous.residual
-            lines.append(f"Viscous damping alone does not describe this track: {best.name} leaves {part:.2g} of what it leaves.")
+            lines.append(
+                f"Viscous damping alone does not describe this track: {best.name} leaves {part:.2g} of what it leaves.")
         if best.correlation > ALIKE:
-            lines.append(f"What {best.name} leaves is no noise: neighbouring residuals are alike, so that the errors below are too small.")
-        lines += [f"  {name:10s} {value:12.6g} ± {best.errors[name]:.2g} {UNITS[name]}" for name, value in best.values.items()]
-        lines.append(f"natural frequency {best.values['omega0'] / TURN:.6g} Hz, length of a simple pendulum {self.length:.5g} m")
+            lines.append(f"What {best.name} leaves is no noise: neighbouring residuals are alike, so that the errors "
+                         "below are too small.")
+        lines += [f"  {name:10s} {value:12.6g} ± {best.errors[name]:.2g} {UNITS[name]}" for name,
+                  value in best.values.items()]
+        lines.append(
+            f"natural frequency {best.values['omega0'] / TURN:.6g} Hz, length of a simple pendulum {self.length:.5g} m")
         if self.inverted:
             lines.append("The track swings about the inverted position.")
         if self.jumps:
             lines.append(f"{self.jumps} jumps of a turn between neighbouring angles were removed.")
         if min(best.values.get(kind, 0.0) for kind in ("viscous", "quadratic", "dry")) < 0:
-            lines.append("A negative coefficient says that friction falls with speed, within the speeds of this track alone.")
+            lines.append(
+                "A negative coefficient says that friction falls with speed, within the speeds of this track alone.")
         swings = [swing for swing in (2.0, 10.0, 40.0) if swing < 0.95 * self.largest] + [self.largest]
-        lines.append("equivalent Q " + ", ".join(f"{self.quality_factor(f'{swing} deg'):.4g} at {swing:.3g} deg" for swing in swings))
+        lines.append("equivalent Q " + ", ".join(f"{self.quality_factor(f'{swing} deg'):.4g} at {swing:.3g} deg"
+                                                 for swing in swings))
         return "\n".join(lines)
 
 
@@ -203,9 +214,9 @@ def _improves(model: Model, larger: Model, samples: int, more: int | None = None
 def fit(time: Any, theta: Any, *, degrees: bool = False, frequency: Any = None) -> Fit:
     """Fits a pendulum to a recorded track: a free decay, or, with the frequency of its drive, a driven one.
 
-    Three models are fitted, with viscous damping, with quadratic drag too, and with dry friction too; `print` of the answer says what each
-    leaves, which is the simplest that describes the track, its numbers with 95 % errors, and the equivalent quality factor at three
-    amplitudes.
+    Three models are fitted, with viscous damping, with quadratic drag too, and with dry friction too; `print` of the
+    answer says what each leaves, which is the simplest that describes the track, its numbers with 95 % errors, and the
+    equivalent quality factor at three amplitudes.
 
     :param time: times in s, ascending
     :param theta: angles in rad from any zero near the rest position

@@ -64,7 +64,8 @@ def _parts(time: np.ndarray, swing: float) -> list[int]:
 
 
 def _begin(time: np.ndarray, theta: np.ndarray, offset: float, slow: float) -> dict[str, float]:
-    """Numbers of a free decay: of the harmonic motion through the first swing, its frequency corrected for amplitude."""
+    """Numbers of a free decay: of the harmonic motion through the first swing, its frequency corrected for
+    amplitude."""
     since = time - time[0]
     near = (since < TURN / slow) | (np.arange(time.size) < 8)
     columns = np.stack([np.cos(slow * since), np.sin(slow * since)], axis=1)[near]

@@ -1,4 +1,5 @@
-"""What a group of a result file must hold before it is drawn, and what its values may be; all else is refused in words."""
+"""What a group of a result file must hold before it is drawn, and what its values may be; all else is refused in
+words."""
 
 import json
 from pathlib import Path
@@ -29,8 +30,10 @@ def _part(names: str, attributes: str = "") -> Part:
 
 # Without these a group is of no use to any picture; the study that writes a group adds its row here.
 NEEDED = {
-    "atlas": _part("curve_kind curve_period curve_winding curve_centre curve_name curve_first curve_points x y supercritical "
-                   "special_x special_y special_kind class_name class_period class_winding class_symmetric row column attracting "
+    "atlas": _part(
+        "curve_kind curve_period curve_winding curve_centre curve_name curve_first curve_points x y supercritical "
+                   "special_x special_y special_kind class_name class_period class_winding class_symmetric row column "
+                   "attracting "
                    "count list region_x region_y region_share region_radius", "x_parameter y_parameter max_period"),
     "attractors": _part("period winding centre name mirror strobe_theta strobe_velocity"),
     "orbit": _part("time theta velocity pivot strobe_time strobe_theta strobe_velocity maximum_time maximum_angle "
@@ -38,7 +41,8 @@ NEEDED = {
     "stability": _part("k m log_multiplier angle stable"),
     "potential": _part("theta drive_amplitude rim_exact energy energy_blackburn energy_simple"),
     "escape": _part("from saddle barrier way_out path time theta velocity torque"),
-    "tradeoff": _part("label method scheme interpolation wrong wrong_low wrong_high seconds seconds_per_million_cells pareto",
+    "tradeoff": _part(
+        "label method scheme interpolation wrong wrong_low wrong_high seconds seconds_per_million_cells pareto",
                       "floor samples"),
     "basin": _part("theta velocity attractor settling_time evidence"),
     "line": _part("value name period winding centre", "parameter"),
@@ -49,7 +53,8 @@ NEEDED = {
     "tangency": _part("strobe theta velocity", "value error parameter crossing"),
     "wada": _part("theta velocity arc_length periods followed basins wada pair_cycles pair_shared"),
 }
-_BRANCHES = "branch_start branch_end branch_start_kind branch_end_kind branch_name branch_period branch_winding branch_centre branch_mirror"
+_BRANCHES = ("branch_start branch_end branch_start_kind branch_end_kind branch_name branch_period branch_winding "
+             "branch_centre branch_mirror")
 # What a group may hold, and then whole: a part is there if its first variable is.
 OPTIONAL = {
     "plane": [_part("end start_theta start_velocity end_period end_winding end_centre exponent settling_time"),
@@ -64,15 +69,19 @@ OPTIONAL = {
 }
 # Never below 0; one of them is -1 where it is not known.
 NOT_KNOWN = "list"
-COUNTS = {"period", "settling_time", "branch_period", "class_period", "curve_period", "curve_first", "curve_points", "list", "end_period"}
+COUNTS = {"period", "settling_time", "branch_period", "class_period", "curve_period", "curve_first", "curve_points",
+          "list", "end_period"}
 GRIDS = {"theta", "velocity", "time", "k", "m", "value", "release", "x", "y", "row", "column"}  # axes that go up
-WORDS = {"parameter", "crossing", "parameter_units", "x_parameter", "y_parameter"}  # attributes that are text; others are numbers
+# Attributes that are text; others are numbers
+WORDS = {"parameter", "crossing", "parameter_units", "x_parameter", "y_parameter"}
 WITH_PENDULUM = {"basin", "orbit", "potential", "tradeoff"}  # groups whose pictures name its parameters
-NUMBERS = {"quality_factor", "damping", *(f"tongue_{tongue}_lowest_{axis}" for tongue in (1, 2) for axis in "km")}  # where they are given
+# Where they are given
+NUMBERS = {"quality_factor", "damping", *(f"tongue_{tongue}_lowest_{axis}" for tongue in (1, 2) for axis in "km")}
 
 
 def axes_of(group: str) -> dict[str, str]:
-    """The variables of a group that are values of a swept key -> which one, as its attributes begin: "parameter", "x" or "y"."""
+    """The variables of a group that are values of a swept key -> which one, as its attributes begin: "parameter", "x"
+    or "y"."""
     return {name: row["units"][1:].removesuffix("_units") for (of, name), row in VARIABLES.items()
             if of == group and row["units"].startswith("@")}
 
@@ -87,8 +96,10 @@ def attributes(group: str, variable: str) -> dict[str, Any]:
 
 
 def described(group: str, dataset: xarray.Dataset) -> xarray.Dataset:
-    """A dataset made in Python with the dimensions' numbers, and the types and attributes that its group has in a file."""
-    dataset = dataset.assign_coords({name: np.arange(size) for name, size in dataset.sizes.items() if name not in dataset.coords})
+    """A dataset made in Python with the dimensions' numbers, and the types and attributes that its group has in a
+    file."""
+    dataset = dataset.assign_coords({name: np.arange(size) for name, size in dataset.sizes.items()
+                                     if name not in dataset.coords})
     for name in map(str, dataset.variables):
         dataset[name] = dataset[name].astype(VARIABLES[group, name]["type"]).assign_attrs(attributes(group, name))
     return dataset
@@ -120,15 +131,18 @@ def wrong_values(dataset: xarray.Dataset, group: str) -> str | None:
 def _fault(dataset: xarray.Dataset, group: str, name: str) -> str | None:
     values, row = dataset[name].values, VARIABLES.get((group, name), {"type": "", "flags": []})
     code = bool(row["flags"]) or name in COUNTS
-    if (values.dtype.kind not in "OSU") if row["type"] == "text" else values.dtype.kind not in ("iu" if code else "iuf"):
+    if (values.dtype.kind not in "OSU") if row["type"] == "text" else values.dtype.kind not in ("iu"
+                                                                                                if code else "iuf"):
         return f"{name} is of another type"
     least = -1 if name == NOT_KNOWN else 0
-    if code and values.size and not least <= values.min() <= values.max() <= (len(row["flags"]) - 1 if row["flags"] else np.inf):
+    if code and values.size and not least <= values.min() <= values.max() <= (len(row["flags"]) - 1 if row["flags"]
+                                                                              else np.inf):
         return f"{name} has values that mean nothing"
     if name in dataset.dims and values.dtype.kind == "f" and not np.isfinite(values).all():
         return f"{name} is an axis with values that are not finite"
     if name in dataset.dims and name in GRIDS:
-        values = dataset.get(f"{name}_offset", dataset[name]).values  # what tells cells apart where doubles near their centres do not
+        # What tells cells apart where doubles near their centres do not
+        values = dataset.get(f"{name}_offset", dataset[name]).values
     if name in dataset.dims and name in GRIDS and not (np.diff(values) > 0).all():
         return f"{name} is an axis that does not go up"
     return None

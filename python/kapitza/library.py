@@ -1,4 +1,5 @@
-"""libkapitza in this process: its header is the declaration (cffi, ABI mode). Results become arrays and datasets, failures exceptions."""
+"""libkapitza in this process: its header is the declaration (cffi, ABI mode). Results become arrays and datasets,
+failures exceptions."""
 
 import os
 import re
@@ -37,7 +38,8 @@ class Library:
         self._pause = self.ffi.callback("kapitza_pause", lambda context: 0, error=1, onerror=_keep)
 
     def call(self, name: str, *arguments: Any) -> None:
-        """Calls a function that returns a status. Signal handlers of Python run meanwhile; what they raise ends the call."""
+        """Calls a function that returns a status. Signal handlers of Python run meanwhile; what they raise ends the
+        call."""
         if threading.current_thread() is threading.main_thread():
             self.lib.kapitza_set_pause(self._pause, self.ffi.NULL)
         status = getattr(self.lib, name)(*arguments)
@@ -62,7 +64,8 @@ class Library:
 
     def array(self, pointer: Any, count: int, dtype: Any) -> np.ndarray:
         """A copy of `count` numbers."""
-        return np.frombuffer(self.ffi.buffer(pointer, count * np.dtype(dtype).itemsize), dtype).copy() if count else np.empty(0, dtype)
+        return np.frombuffer(self.ffi.buffer(pointer, count * np.dtype(dtype).itemsize),
+                             dtype).copy() if count else np.empty(0, dtype)
 
     def cycles(self, given: Any, dimension: str) -> xarray.Dataset:
         """A list of attractors or cycles, which is freed, as the group of a file has it."""
@@ -75,10 +78,14 @@ class Library:
         rows = [listed.cycle[index] for index in range(listed.count)]
         points = np.full((2, len(rows), max([row.period for row in rows], default=1) or 1), np.nan)
         for place, row in enumerate(rows):
-            points[:, place, :row.period] = [self.array(row.theta, row.period, float), self.array(row.velocity, row.period, float)]
-        values: dict[str, Any] = {"name": (dimension, np.array([self.ffi.string(row.name).decode() for row in rows], dtype=object))}
-        for name, kind in (("period", np.int32), ("winding", np.int32), ("centre", np.int8), ("symmetric", np.int8), ("mirror", np.int32),
-                           ("amplitude", float), ("mean_velocity", float), ("lyapunov", float), ("lyapunov_error", float)):
+            points[:, place, :row.period] = [self.array(row.theta, row.period, float),
+                                             self.array(row.velocity, row.period, float)]
+        values: dict[str, Any] = {"name": (dimension, np.array([self.ffi.string(row.name).decode() for row in rows],
+                                                               dtype=object))}
+        for name, kind in (("period", np.int32), ("winding", np.int32), ("centre", np.int8), ("symmetric", np.int8),
+                           ("mirror", np.int32),
+                           ("amplitude", float), ("mean_velocity", float), ("lyapunov", float),
+                           ("lyapunov_error", float)):
             values[name] = (dimension, np.array([getattr(row, name) for row in rows], dtype=kind))
         for part in ("re", "im"):
             pairs = [list(getattr(row, f"multiplier_{part}")) if row.period else [np.nan, np.nan] for row in rows]
@@ -99,6 +106,7 @@ def load() -> Library:
     chosen = os.environ.get("KAPITZA_LIBRARY")
     path, header = Path(chosen) if chosen else _place("libkapitza.so"), _place("kapitza.h")
     if not (path.is_file() and header.is_file()):
-        raise FileNotFoundError("libkapitza.so is not installed: `pip install .` in its sources builds it, and so does scripts/setup; "
+        raise FileNotFoundError(
+            "libkapitza.so is not installed: `pip install .` in its sources builds it, and so does scripts/setup; "
                                 "or name it by the variable KAPITZA_LIBRARY")
     return Library(path, header)

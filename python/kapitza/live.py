@@ -1,4 +1,5 @@
-"""Frames, ends of starts and motions on request, from a pendulum of the library that keeps what it finds: arrays of its structures."""
+"""Frames, ends of starts and motions on request, from a pendulum of the library that keeps what it finds: arrays of its
+structures."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -10,8 +11,8 @@ from kapitza import style
 from kapitza.library import NO_TURNS, Library, load
 from kapitza.scene import flow
 
-PLANES = {"labels": np.uint8, "settling_time": np.float32, "smooth_time": np.float32, "doubt": np.uint8, "other": np.uint8,
-          "turns": np.float32, "evidence": np.uint8}  # in the order of kapitza.h
+PLANES = {"labels": np.uint8, "settling_time": np.float32, "smooth_time": np.float32, "doubt": np.uint8,
+          "other": np.uint8, "turns": np.float32, "evidence": np.uint8}  # in the order of kapitza.h
 CENTRES = ("down", "inverted", "rotating", "neither")
 LINE = ("value", "height", "theta", "velocity", "multiplier")  # numbers of a point of a branch
 Part = tuple[dict[str, Any], dict[str, np.ndarray]]  # a header, and planes by name
@@ -70,14 +71,16 @@ class Live:
             raise self._fault from None
         return True
 
-    def frame(self, show: Callable[[Part], bool], between: Callable[[], bool] = lambda: True, *, changed: str | None = None,
-              planes: Sequence[str] = ("labels",), moving: bool = False, coarseness: Sequence[int] = (1,), atlas: str | None = None,
-              point: Sequence[float] = (0, 0)) -> bool:
+    def frame(self, show: Callable[[Part], bool], between: Callable[[], bool] = lambda: True, *,
+              changed: str | None = None,
+              planes: Sequence[str] = ("labels",), moving: bool = False, coarseness: Sequence[int] = (1,),
+              atlas: str | None = None, point: Sequence[float] = (0, 0)) -> bool:
         """Makes a frame part by part, for `show`; False if `show` or `between` ends it by False."""
         ffi, texts = self._library.ffi, [self._text(changed), self._text(atlas)]
         request = ffi.new("kapitza_frame_request *", {
             "change": texts[0], "moving": moving, "planes": sum(1 << list(PLANES).index(name) for name in planes),
-            "n_parts": len(coarseness), "coarseness": list(coarseness)[:4], "atlas": texts[1], "x": point[0], "y": point[1]})
+            "n_parts": len(coarseness), "coarseness": list(coarseness)[:4], "atlas": texts[1], "x": point[0],
+            "y": point[1]})
 
         def shown(part: Any) -> bool:
             header = {"catalogue": self._catalogue(part.catalogue[0]), "milliseconds": round(1e3 * part.seconds, 3)}
@@ -97,7 +100,8 @@ class Live:
               coarseness: Sequence[int] = (1,)) -> bool:
         """Draws where one start ends over a plane of two keys, as `frame` does."""
         def shown(part: Any) -> bool:
-            return show((self._raster(part), {name: self._plane(part, getattr(part, name), np.uint8) for name in ("period", "centre")}))
+            return show((self._raster(part),
+                         {name: self._plane(part, getattr(part, name), np.uint8) for name in ("period", "centre")}))
 
         steps = self._library.ffi.new("int32_t[]", list(coarseness))
         return self._shown("kapitza_chart", self._text(changed), len(coarseness), steps,
@@ -110,16 +114,18 @@ class Live:
         raise AssertionError
 
     def _catalogue(self, found: Any) -> dict[str, Any]:
-        numbers = {"k": "k", "damping": "beta", "m": "m", "quality_factor": "quality_factor", "drive_frequency": "drive_frequency",
-                   "drive_amplitude": "drive_amplitude"}
-        return {"version": found.version, "pendulum": {name: finite(getattr(found.parameters, field)) for name, field in numbers.items()},
+        numbers = {"k": "k", "damping": "beta", "m": "m", "quality_factor": "quality_factor",
+                   "drive_frequency": "drive_frequency", "drive_amplitude": "drive_amplitude"}
+        return {"version": found.version, "pendulum": {name: finite(getattr(found.parameters, field)) for name,
+                                                       field in numbers.items()},
                 "attractors": [self._attractor(index, found.track[index], found.attractors.cycle[index])
                                for index in range(found.attractors.count)]}
 
     def _attractor(self, number: int, track: int, row: Any) -> dict[str, Any]:
-        return {"id": number, "track": track, "name": self._word(row.name), "kind": style.kind(row.period, row.winding, row.centre),
-                "period": row.period, "winding": row.winding, "centre": CENTRES[row.centre], "symmetric": bool(row.symmetric),
-                "mirror": row.mirror, "mean_velocity": finite(row.mean_velocity),
+        return {"id": number, "track": track, "name": self._word(row.name),
+                "kind": style.kind(row.period, row.winding, row.centre),
+                "period": row.period, "winding": row.winding, "centre": CENTRES[row.centre],
+                "symmetric": bool(row.symmetric), "mirror": row.mirror, "mean_velocity": finite(row.mean_velocity),
                 "multiplier": finite(math.hypot(row.multiplier_re[0], row.multiplier_im[0])) if row.period else None,
                 "strobe": self._points(row.theta, row.velocity, row.period)}
 
@@ -152,13 +158,13 @@ class Live:
         raise AssertionError
 
     def _kind(self, row: Any) -> dict[str, Any]:
-        return {"name": self._word(row.name), "period": row.period, "winding": row.winding, "centre": CENTRES[row.centre],
-                "symmetric": bool(row.symmetric), "images": row.images}
+        return {"name": self._word(row.name), "period": row.period, "winding": row.winding,
+                "centre": CENTRES[row.centre], "symmetric": bool(row.symmetric), "images": row.images}
 
     def _motion(self, row: Any) -> dict[str, Any]:
         pairs = [[row.multiplier_re[place], row.multiplier_im[place]] for place in range(2)]
-        return self._kind(row) | {"curve": row.curve if row.curve >= 0 else None, "multipliers": pairs if row.strobes else [],
-                                  "strobe": self._points(row.theta, row.velocity, row.strobes)}
+        return self._kind(row) | {"curve": row.curve if row.curve >= 0 else None, "multipliers": pairs if row.strobes
+                                  else [], "strobe": self._points(row.theta, row.velocity, row.strobes)}
 
     def line(self, atlas: str, x: float | None, y: float | None) -> tuple[list[dict[str, Any]], np.ndarray]:
         """The branches of cycles along a line through the atlas in a result file, and their points."""
@@ -171,20 +177,24 @@ class Live:
 
 
 def endings_of(library: Library, found: Any) -> list[dict[str, Any]]:
-    """A kapitza_endings as rows, each a member of what `kapitza where --json` prints; in SI units too where the pendulum has them."""
+    """A kapitza_endings as rows, each a member of what `kapitza where --json` prints; in SI units too where the
+    pendulum has them."""
     omega = found.parameters.pivot_frequency
-    return [_ending(library, found.ending[index], omega if math.isfinite(omega) else None) for index in range(found.count)]
+    return [_ending(library, found.ending[index], omega if math.isfinite(omega) else None)
+            for index in range(found.count)]
 
 
 def _ending(library: Library, row: Any, omega: float | None) -> dict[str, Any]:
     settled = row.attractor >= 0
-    name, other, precision = (library.ffi.string(text).decode() or None for text in (row.name, row.other_name, row.precision))
+    name, other, precision = (library.ffi.string(text).decode() or None
+                              for text in (row.name, row.other_name, row.precision))
     strobe = [[points[index] for index in range(row.period)] for points in (row.strobe_theta, row.strobe_velocity)]
     near = row.near_time if row.near_time >= 0 else None
     ending: dict[str, Any] = {
         "theta": row.theta, "velocity": row.velocity, "attractor": row.attractor, "name": name,
         "period": row.period if settled else None, "winding": row.winding if settled else None,
-        "settling_time": row.settling_time if settled else None, "decided": precision is not None, "strobe_theta": strobe[0],
+        "settling_time": row.settling_time if settled else None, "decided": precision is not None,
+        "strobe_theta": strobe[0],
         "strobe_velocity": strobe[1], "precision": precision, "error": finite(row.error), "other_attractor": row.other,
         "other_name": other, "near_time": near, "turns": row.turns if settled and row.turns != NO_TURNS else None,
         "mean_velocity": finite(row.mean_velocity) if settled else None}

@@ -17,7 +17,8 @@ def measures_of(measures: xarray.Dataset) -> list[str]:
 
 
 def value_text(measures: xarray.Dataset, name: str, row: int) -> str:
-    """A value, with its interval and unit; of several sizes or other attractors one after another; a dash where it has none."""
+    """A value, with its interval and unit; of several sizes or other attractors one after another; a dash where it has
+    none."""
     values = np.atleast_1d(measures[name].values[row])
     text = ", ".join(_number(value) for value in values)
     if f"{name}_low" in measures and np.isfinite(values).all():
@@ -36,7 +37,8 @@ def of_pendulum(measures: xarray.Dataset) -> dict[str, str]:
 
 
 def rows_of(measures: xarray.Dataset, row: int) -> list[tuple[str, str]]:
-    """All measures of an attractor, then those of the pendulum: words and values. Pairs with other attractors are left out."""
+    """All measures of an attractor, then those of the pendulum: words and values. Pairs with other attractors are left
+    out."""
     names = [name for name in measures_of(measures) if "other" not in measures[name].dims]
     rows = [(name.replace("_", " "), value_text(measures, name, row)) for name in names]
     return rows + [(name.replace("_", " "), text) for name, text in of_pendulum(measures).items()]

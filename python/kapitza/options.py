@@ -34,9 +34,11 @@ class Parser(argparse.ArgumentParser):
         if not word.startswith("-"):
             return f"{word}: one argument too many; {self.prog} --help shows what it takes"
         nearest = difflib.get_close_matches(word.partition("=")[0], self._option_string_actions, 1, 0.8)
-        return f"{word}: unknown option; " + (f"did you mean {nearest[0]}?" if nearest else f"{self.prog} --help lists the options")
+        return f"{word}: unknown option; " + (f"did you mean {nearest[0]}?" if nearest
+                                              else f"{self.prog} --help lists the options")
 
-    def parse_known_args(self, args: Sequence[str] | None = None, namespace: Any = None) -> Any:  # type: ignore[override]
+    def parse_known_args(self, args: Sequence[str] | None = None,
+                         namespace: Any = None) -> Any:  # type: ignore[override]
         found = super().parse_known_args(args, namespace)
         if "" in (sys.argv[1:] if args is None else args) and str(getattr(found[0], "file", "?")) in ("", "."):
             self.error(f"{self._name}: the name of FILE is empty; {self.prog} FILE")

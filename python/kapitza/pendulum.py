@@ -19,7 +19,8 @@ Reals = NDArray[np.float64]
 
 
 class Image(NamedTuple):
-    """States after drive periods: `theta` in [-pi, pi), `velocity`, net `turns`; `tangent` (..., 2, 2), if it was asked for."""
+    """States after drive periods: `theta` in [-pi, pi), `velocity`, net `turns`; `tangent` (..., 2, 2), if it was asked
+    for."""
 
     theta: Reals
     velocity: Reals
@@ -34,12 +35,14 @@ class Pendulum:
     >>> pendulum.attractors()[["name", "period", "winding"]]
     >>> pendulum.basin(theta=300, velocity=(-2, 2, 300)).kapitza.plot(centre="inverted")
 
-    Angles are in rad from down, or texts such as "175 deg"; velocities in rad per drive radian, or, of a pendulum in SI units, texts such
-    as "3 rad/s". Threads may share a pendulum; calls on different pendulums run at the same time. Ctrl-C ends a call.
+    Angles are in rad from down, or texts such as "175 deg"; velocities in rad per drive radian, or, of a pendulum in SI
+    units, texts such as "3 rad/s". Threads may share a pendulum; calls on different pendulums run at the same time.
+    Ctrl-C ends a call.
 
-    :param scene: a scene (path, YAML text or mapping), of which the mappings pendulum, numerics and basin count; None = none
-    :param keys: keys of the mapping `pendulum` (docs/reference/scene.md), such as `length="20 cm"`; the mappings `basin` (search for
-        attractors, phase of release) and `numerics` by their names
+    :param scene: a scene (path, YAML text or mapping), of which the mappings pendulum, numerics and basin count; None =
+        none
+    :param keys: keys of the mapping `pendulum` (docs/reference/scene.md), such as `length="20 cm"`; the mappings
+        `basin` (search for attractors, phase of release) and `numerics` by their names
     :raises SceneError: if a key is wrong
     """
 
@@ -70,7 +73,8 @@ class Pendulum:
         return Pendulum, (self._tree,)
 
     def __repr__(self) -> str:
-        return f"kapitza.Pendulum({', '.join(f'{name}={flow(value)}' for name, value in self._tree.get('pendulum', {}).items())})"
+        written = (f"{name}={flow(value)}" for name, value in self._tree.get("pendulum", {}).items())
+        return f"kapitza.Pendulum({', '.join(written)})"
 
     def _call(self, name: str, *arguments: Any) -> None:
         self._library.call(name, self._own, *arguments)
@@ -97,7 +101,8 @@ class Pendulum:
         return other
 
     def map(self, theta: ArrayLike, velocity: ArrayLike, periods: int = 1, *, tangent: bool = False) -> Image:
-        """Moves states through drive periods, backwards if `periods` is negative: the strobe map, to some 1e-12 rad a period.
+        """Moves states through drive periods, backwards if `periods` is negative: the strobe map, to some 1e-12 rad a
+        period.
 
         >>> pendulum = kapitza.Pendulum(Q=5, Omega=11, epsilon=0.3)
         >>> theta, velocity, turns, _ = pendulum.map(np.linspace(-3, 3, 7), 0, periods=10)
@@ -108,7 +113,8 @@ class Pendulum:
         turns = np.zeros(angles.shape, np.int64)
         matrix = np.empty((*angles.shape, 2, 2)) if tangent else None
         view = self._library.view
-        self._call("kapitza_map", angles.size, periods, view(angles), view(speeds), view(turns, "int64_t *"), view(matrix))
+        self._call("kapitza_map", angles.size, periods, view(angles), view(speeds), view(turns, "int64_t *"),
+                   view(matrix))
         return Image(angles, speeds, turns, matrix)
 
     def orbit(self, theta: float | str, velocity: float | str, periods: int = 100, *, transient: int = 0,
@@ -124,43 +130,50 @@ class Pendulum:
         return pandas.DataFrame({"time": time, "theta": values[0], "velocity": values[1]})
 
     def attractors(self) -> pandas.DataFrame:
-        """The known attractors, a row each by id, with the columns of `Result.attractors`. The first call searches; starts may find more.
+        """The known attractors, a row each by id, with the columns of `Result.attractors`. The first call searches;
+        starts may find more.
 
         >>> kapitza.Pendulum(Q=5, Omega=11, epsilon=0.3).attractors()["name"]
         """
         return attractors_table(self._listed("attractor", "kapitza_attractors"))
 
     def where(self, theta: ArrayLike, velocity: ArrayLike, *, start_error: float = 0) -> xarray.Dataset:
-        """Where starts end: `attractor` (id; -1 = not settled), `evidence`, `settling_time` (drive periods), `turns`, `error` (rad) and
-        `other_attractor` of the shape of the starts, labelled as `basin.method: exact` labels cells; and the attractors.
+        """Where starts end: `attractor` (id; -1 = not settled), `evidence`, `settling_time` (drive periods), `turns`,
+        `error` (rad) and `other_attractor` of the shape of the starts, labelled as `basin.method: exact` labels cells;
+        and the attractors.
 
         >>> ends = kapitza.Pendulum(Q=5, Omega=11, epsilon=0.3).where(np.linspace(2.9, 3.1, 5), 0.2)
         >>> ends.name[ends.attractor].values
 
         :param start_error: bound of the starts' own errors, rad; labels that they could change are undecided"""
         angles, speeds = self._starts(theta, velocity)
-        kinds = dict(attractor="int16", other_attractor="int16", evidence="uint8", settling_time="int64", turns="int32", error="float64")
+        kinds = dict(attractor="int16", other_attractor="int16", evidence="uint8", settling_time="int64", turns="int32",
+                     error="float64")
         values = {name: np.empty(angles.shape, kind) for name, kind in kinds.items()}
         given, view = self._library.ffi.new("kapitza_cycles **"), self._library.view
-        arrays = (view(values[name], "double *" if kind == "float64" else f"{kind}_t *") for name, kind in kinds.items())
+        arrays = (view(values[name], "double *" if kind == "float64" else f"{kind}_t *") for name,
+                  kind in kinds.items())
         self._call("kapitza_labels", angles.size, view(angles), view(speeds), start_error, *arrays, given)
         dims = next((value.dims for value in (theta, velocity) if isinstance(value, xarray.DataArray)), None)
         if dims is None or len(dims) != angles.ndim:
-            dims = tuple(f"start_{axis}" for axis in range(angles.ndim)) if angles.ndim > 1 else ("start",)[:angles.ndim]
+            dims = tuple(f"start_{axis}" for axis in range(angles.ndim)) if angles.ndim > 1 else ("start",
+                                                                                                  )[:angles.ndim]
         labels = ({"theta": angles, "velocity": speeds} | values).items()
         return datasets.labelled({name: (dims, value) for name, value in labels}, self._library.cycles(given[0], "id"))
 
     def basin(self, theta: Any = 400, velocity: Any = 400) -> xarray.Dataset:
-        """The label of every cell of a window, by all cores: variables over velocity and theta as in the group `basin` of a file, and the
-        attractors. `.kapitza.plot(ax=...)` draws it, `.kapitza.attractors` is their table.
+        """The label of every cell of a window, by all cores: variables over velocity and theta as in the group `basin`
+        of a file, and the attractors. `.kapitza.plot(ax=...)` draws it, `.kapitza.attractors` is their table.
 
         >>> basin = kapitza.Pendulum(Q=5, Omega=11, epsilon=0.3).basin(theta=200, velocity=(-2, 2, 200))
         >>> basin.attractor.plot()
 
-        :param theta: number of cells; (min, max, count); or, at any depth, {"centre": "2.05", "width": 1e-20, "count": 200}
+        :param theta: number of cells; (min, max, count); or, at any depth, {"centre": "2.05", "width": 1e-20, "count":
+            200}
         :param velocity: likewise
         """
-        window = ", ".join(f"{name}: {flow(self._axis(name, value))}" for name, value in (("theta", theta), ("velocity", velocity)))
+        window = ", ".join(f"{name}: {flow(self._axis(name, value))}" for name,
+                           value in (("theta", theta), ("velocity", velocity)))
         given = self._library.ffi.new("kapitza_basin **")
         self._call("kapitza_basin_of", window.encode(), given)
         try:
@@ -178,14 +191,15 @@ class Pendulum:
 
     def cycles(self, max_period: int = 1, *, theta: tuple[float, float] = (-np.pi, np.pi),
                velocity: tuple[float, float] = (-2, 2)) -> xarray.Dataset:
-        """All cycles of up to so many periods with a point in the window, attracting or not, as the group `saddles` of a file has them. The
-        attribute `open_sums` is 0 if the sums of their indices show that none is missing.
+        """All cycles of up to so many periods with a point in the window, attracting or not, as the group `saddles` of
+        a file has them. The attribute `open_sums` is 0 if the sums of their indices show that none is missing.
 
         >>> kapitza.Pendulum(Q=5, Omega=11, epsilon=0.3).cycles(max_period=2)[["name", "period"]].to_dataframe()
         """
         ffi = self._library.ffi
         open_sums = ffi.new("int64_t *")
-        cycles = self._listed("cycle", "kapitza_all_cycles", max_period, ffi.new("double [4]", [*theta, *velocity]), after=(open_sums,))
+        cycles = self._listed("cycle", "kapitza_all_cycles", max_period, ffi.new("double [4]", [*theta, *velocity]),
+                              after=(open_sums,))
         return cycles.assign_attrs(open_sums=int(open_sums[0]), max_period=max_period)
 
     def saddles(self, max_period: int = 1, **window: Any) -> xarray.Dataset:
@@ -196,8 +210,10 @@ class Pendulum:
         cycles = self.cycles(max_period, **window)
         return cycles.isel(cycle=np.hypot(cycles.multiplier_re, cycles.multiplier_im).isel(pair=0).values > 1)
 
-    def cycle(self, theta: float | str, velocity: float | str, period: int = 1, *, within: float = 0.5) -> xarray.Dataset:
-        """The cycle that Newton's method finds near a state, attracting or not; its first strobe point is that near the state.
+    def cycle(self, theta: float | str, velocity: float | str, period: int = 1, *,
+              within: float = 0.5) -> xarray.Dataset:
+        """The cycle that Newton's method finds near a state, attracting or not; its first strobe point is that near the
+        state.
 
         >>> kapitza.Pendulum(Q=5, Omega=11, epsilon=0.3).cycle("179 deg", 0).multiplier_re.values
 
@@ -206,10 +222,12 @@ class Pendulum:
         starts = (float(value) for value in self._starts(theta, velocity))
         found = self._listed("cycle", "kapitza_cycle_near", period, *starts, within)
         if found.sizes["cycle"] == 0:
-            raise ValueError(f"no cycle that closes after {period} periods lies within {within:g} rad of ({theta}, {velocity})")
+            raise ValueError(
+                f"no cycle that closes after {period} periods lies within {within:g} rad of ({theta}, {velocity})")
         return found.isel(cycle=0)
 
-    def manifold(self, cycle: xarray.Dataset, *, stable: bool = False, side: int = 1, phase: int = 0, length: float = 20,
+    def manifold(self, cycle: xarray.Dataset, *, stable: bool = False, side: int = 1, phase: int = 0,
+                 length: float = 20,
                  spacing: float = 0.02, max_speed: float = 2, most: int = 32768) -> pandas.DataFrame:
         """One branch of a manifold of a cycle: theta, velocity, arc_length and polyline (number of the unbroken part).
 
@@ -221,13 +239,14 @@ class Pendulum:
         """
         points, count = np.empty((most, 4)), self._library.ffi.new("int64_t *")
         state = (float(cycle[name].values[phase]) for name in ("strobe_theta", "strobe_velocity"))
-        self._call("kapitza_manifold", *state, int(cycle["period"]), int(stable), side, spacing, length, max_speed, most,
-                   self._library.view(points), count)
+        self._call("kapitza_manifold", *state, int(cycle["period"]), int(stable), side, spacing, length, max_speed,
+                   most, self._library.view(points), count)
         table = pandas.DataFrame(points[:count[0]], columns=["theta", "velocity", "arc_length", "polyline"])
         return table.astype({"polyline": int})
 
     def ways_out(self, *, max_period: int = 6, velocity: tuple[float, float] = (-2, 2), **keys: Any) -> WaysOut:
-        """The least torque out of each basin, or into every one: paths, barriers, lives. Keys are those of the study `escape`.
+        """The least torque out of each basin, or into every one: paths, barriers, lives. Keys are those of the study
+        `escape`.
 
         >>> kapitza.Pendulum(Q=5, Omega=11, epsilon=0.3).ways_out(starts=12).barriers
         """
@@ -241,10 +260,12 @@ class Pendulum:
     def _starts(self, theta: ArrayLike, velocity: ArrayLike) -> list[Reals]:
         omega = self._parameters["pivot_frequency"]
         speeds = _numbers(velocity, lambda value: units.velocity(value, omega if np.isfinite(omega) else None))
-        return [np.array(values, dtype=float, order="C") for values in np.broadcast_arrays(_numbers(theta, units.angle), speeds)]
+        return [np.array(values, dtype=float, order="C")
+                for values in np.broadcast_arrays(_numbers(theta, units.angle), speeds)]
 
 
 def _numbers(values: ArrayLike, read: Any) -> Reals:
     """Numbers, or texts that `read` understands, as an array."""
     given = np.asarray(values)
-    return given.astype(float) if given.dtype.kind in "iuf" else np.vectorize(read, otypes=[float])(given.astype(object))
+    return given.astype(float) if given.dtype.kind in "iuf" else np.vectorize(read,
+                                                                              otypes=[float])(given.astype(object))

@@ -1,4 +1,5 @@
-"""How likely a motion is: the share of a basin under a spread of starts, and shares along a sweep or over a plane, by name."""
+"""How likely a motion is: the share of a basin under a spread of starts, and shares along a sweep or over a plane, by
+name."""
 
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -29,7 +30,8 @@ def wilson(count: Any, n: int) -> tuple[Any, Any]:
 
 
 def share_below(kind: str, edges: np.ndarray, middle: float, spread: float) -> np.ndarray:
-    """The share of a distribution below each edge: "normal" with the standard deviation `spread`, "uniform" within +-spread."""
+    """The share of a distribution below each edge: "normal" with the standard deviation `spread`, "uniform" within
+    +-spread."""
     if spread == 0:
         return (edges > middle).astype(float)
     if kind == "uniform":
@@ -49,21 +51,24 @@ def probability(result: "Result", theta: Any, velocity: Any, spread: tuple[Any, 
         raise ValueError(f"the spread {spread!r} about ({theta!r}, {velocity!r}) must be finite and not below 0")
     if not 0 <= starts <= 100_000:
         raise ValueError(f"starts is {starts}; it must be from 0 (the basin of the file) to 100000")
-    rows = _of_fresh_starts(result, place, widths, kind, starts, seed) if starts else _of_basin(result, place, widths, kind)
+    rows = _of_fresh_starts(result, place, widths, kind, starts,
+                            seed) if starts else _of_basin(result, place, widths, kind)
     table = pandas.DataFrame(rows, columns=["name", "probability", "low", "high"])
     return table.sort_values("probability", ascending=False, kind="stable", ignore_index=True)
 
 
 def _of_basin(result: "Result", place: tuple[float, float], widths: tuple[float, float], kind: str) -> list[Row]:
-    """The weight of the cells of each attractor. Low counts the cells whose eight neighbours have the same label, high also every cell
-    beside one of them: the boundary lies between."""
+    """The weight of the cells of each attractor. Low counts the cells whose eight neighbours have the same label, high
+    also every cell beside one of them: the boundary lies between."""
     basin, names = result.group("basin"), {-1: NOT_SETTLED, **dict(enumerate(result.names))}
     weights = {}
     for name, middle, width in zip(("theta", "velocity"), place, widths, strict=True):
         edges = np.linspace(*edges_of(basin, name), basin.sizes[name] + 1)
         turns = units.TURN * np.arange(-40, 41) if name == "theta" else np.zeros(1)
-        reach = [turn for turn in turns if middle + turn + 9 * width >= edges[0] and middle + turn - 9 * width <= edges[-1]]
-        weights[name] = sum((np.diff(share_below(kind, edges, middle + turn, width)) for turn in reach), np.zeros(basin.sizes[name]))
+        reach = [turn for turn in turns if middle + turn + 9 * width >= edges[0] and middle + turn - 9 * width
+                 <= edges[-1]]
+        weights[name] = sum((np.diff(share_below(kind, edges, middle + turn, width)) for turn in reach),
+                            np.zeros(basin.sizes[name]))
     weight, labels = np.outer(weights["velocity"], weights["theta"]), basin["attractor"].values
     around = edges_of(basin, "theta")
     wraps = abs(around[1] - around[0] - units.TURN) < 1e-6
@@ -130,14 +135,16 @@ def _followed(result: "Result") -> int:
 
 def _chosen(name: str, names: list[str], kinds: list[str]) -> list[int]:
     """The branches of a name, or of a centre where no branch has the name."""
-    chosen = [place for place, one in enumerate(names) if one == name] or [place for place, kind in enumerate(kinds) if kind == name]
+    chosen = [place for place, one in enumerate(names) if one == name] or [place for place, kind in enumerate(kinds)
+                                                                           if kind == name]
     if not chosen and name not in CENTRES:
         raise KeyError(f"no branch has the name {name!r}; the names are {', '.join(dict.fromkeys(names))}")
     return chosen
 
 
 class Largest(NamedTuple):
-    """The largest value of a key with a share; for `low` the lower ends of the shares' 95 % intervals count, for `high` the upper."""
+    """The largest value of a key with a share; for `low` the lower ends of the shares' 95 % intervals count, for `high`
+    the upper."""
 
     value: float
     low: float
@@ -160,7 +167,8 @@ def agreement(result: "Result", table: Any) -> "Agreement":
     measured = table.reset_index(drop=True)
     theta, velocity = measured_starts(measured)
     if "end" not in measured or not len(measured):
-        raise ValueError("the table of releases needs a column end, such as inverted or down, and a row for each release")
+        raise ValueError(
+            "the table of releases needs a column end, such as inverted or down, and a row for each release")
     found = result.at(theta, velocity)
     assert isinstance(found, pandas.DataFrame)  # as lists give
     centres = {-1: "", **dict(enumerate(result.attractors["centre"]))}
@@ -180,9 +188,11 @@ def measured_starts(table: pandas.DataFrame) -> tuple[list[Any], list[Any]]:
     """The starts of a table with the columns theta or theta_deg, and velocity or velocity_rad_per_s."""
     for name in ("theta", "velocity"):
         if name not in table and {"theta": "theta_deg", "velocity": "velocity_rad_per_s"}[name] not in table:
-            raise ValueError(f"the table of releases needs a column {name}, or {name}_{'deg' if name == 'theta' else 'rad_per_s'}")
+            raise ValueError(
+                f"the table of releases needs a column {name}, or {name}_{'deg' if name == 'theta' else 'rad_per_s'}")
     theta = table["theta"] if "theta" in table else [f"{value!r} deg" for value in table["theta_deg"].astype(float)]
-    velocity = table["velocity"] if "velocity" in table else [f"{value!r} rad/s" for value in table["velocity_rad_per_s"].astype(float)]
+    velocity = table["velocity"] if "velocity" in table else [f"{value!r} rad/s"
+                                                              for value in table["velocity_rad_per_s"].astype(float)]
     return list(theta), list(velocity)
 
 
@@ -191,15 +201,17 @@ def _near_boundary(result: "Result", found: pandas.DataFrame) -> list[bool]:
     basin = result.group("basin")
     labels = basin["attractor"].values
     _, rows, columns = cells_of(basin, found["theta"].to_numpy(), found["velocity"].to_numpy())
-    pieces = (labels[max(0, row - 1):row + 2, max(0, column - 1):column + 2] for row, column in zip(rows, columns, strict=True))
+    pieces = (labels[max(0, row - 1):row + 2, max(0, column - 1):column + 2] for row,
+              column in zip(rows, columns, strict=True))
     return [bool((piece != piece.flat[0]).any()) for piece in pieces]
 
 
 class Agreement:
     """Measured releases beside a basin.
 
-    `table` has a row each: theta and velocity, `measured` (the end that was seen), `name` (where the map has it end), `agrees`, and
-    `near_boundary` (whether a cell beside its own ends elsewhere). `share` is the share that agrees, `interval` its 95 % interval (Wilson).
+    `table` has a row each: theta and velocity, `measured` (the end that was seen), `name` (where the map has it end),
+    `agrees`, and `near_boundary` (whether a cell beside its own ends elsewhere). `share` is the share that agrees,
+    `interval` its 95 % interval (Wilson).
     """
 
     def __init__(self, table: pandas.DataFrame) -> None:
@@ -209,9 +221,11 @@ class Agreement:
 
     def __repr__(self) -> str:
         wrong, low, high = self.table[~self.table["agrees"]], *(100 * edge for edge in self.interval)
-        lines = [f"{int(self.table['agrees'].sum())} of {len(self.table)} releases agree ({100 * self.share:.1f} %, 95 % interval "
+        lines = [f"{int(self.table['agrees'].sum())} of {len(self.table)} releases agree ({100 * self.share:.1f} %, "
+                 "95 % interval "
                  f"{low:.1f} to {high:.1f} %)"]
         if len(wrong):
-            lines.append(f"{int(wrong['near_boundary'].sum())} of the {len(wrong)} others lie beside a boundary of the basins")
+            lines.append(
+                f"{int(wrong['near_boundary'].sum())} of the {len(wrong)} others lie beside a boundary of the basins")
             lines.append(wrong.to_string())
         return "\n".join(lines)

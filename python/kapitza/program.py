@@ -17,9 +17,11 @@ from kapitza.scene import Scene, passed_on
 # because every MPI has other options for it (OMPI: Open MPI 4; PRTE: Open MPI 5; MPICH needs none).
 MPI_SETTINGS = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-    "OMPI_MCA_orte_execute_quiet": "1", "OMPI_MCA_mpi_yield_when_idle": "1", "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
+    "OMPI_MCA_orte_execute_quiet": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
+    "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
 }
-# What launchers tell a process of a job, which its children must not take for their own; and by what such a process is known.
+# What launchers tell a process of a job, which its children must not take for their own; and by what such a process is
+# known.
 JOB_SETTINGS = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "ORTE_", "HYDI_", "HYDRA_", "MPI_LOCAL", "SLURM_")
 IN_A_JOB = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_STEP_ID"}
 FEWEST_MOST_RANKS, RANKS_PER_CORE = 64, 8
@@ -31,8 +33,9 @@ _PLACE = re.compile(r"(?P<place>(?:.+?:\d+:\d+|--set .+?|request)): (?P<key>[a-z
 class SceneError(ValueError):
     """The program refuses a scene or a command. The text is the program's message.
 
-    `key` is the key of the scene that is wrong, or None if it is not a single one. `value` is its value; None = the key is missing.
-    `place` is the place in the scene: `FILE:LINE:COLUMN`, "line LINE, column COLUMN" in a text, or the option that set the key.
+    `key` is the key of the scene that is wrong, or None if it is not a single one. `value` is its value; None = the key
+    is missing. `place` is the place in the scene: `FILE:LINE:COLUMN`, "line LINE, column COLUMN" in a text, or the
+    option that set the key.
     """
 
     def __init__(self, text: str, key: str | None = None, value: Any = None, place: str | None = None) -> None:
@@ -53,7 +56,8 @@ def version() -> str:
 
 
 def program() -> Path:
-    """The program: the variable KAPITZA, else that of the sources around this package, of its installation, or on the PATH."""
+    """The program: the variable KAPITZA, else that of the sources around this package, of its installation, or on the
+    PATH."""
     if chosen := os.environ.get("KAPITZA"):
         return Path(chosen)
     built = Path(__file__).resolve().parents[2] / "build" / "kapitza"
@@ -85,16 +89,19 @@ def command(words: Sequence[str | os.PathLike[str]], ranks: int = 1) -> list[str
 
 
 def _launcher(own: Path) -> str:
-    """What starts several ranks of a program: KAPITZA_MPIRUN, else the mpiexec beside it, of the same MPI, else that of the PATH."""
+    """What starts several ranks of a program: KAPITZA_MPIRUN, else the mpiexec beside it, of the same MPI, else that of
+    the PATH."""
     beside = own.parent / "mpiexec"
     chosen = os.environ.get("KAPITZA_MPIRUN")
     if beside.is_file():
         if chosen and Path(shutil.which(chosen) or chosen).resolve() != beside.resolve():
-            warnings.warn(f"KAPITZA_MPIRUN names {chosen}; the launcher of this program's own MPI is {beside}", stacklevel=4)
+            warnings.warn(f"KAPITZA_MPIRUN names {chosen}; the launcher of this program's own MPI is {beside}",
+                          stacklevel=4)
         return chosen or str(beside)
     if launcher := chosen or shutil.which("mpirun") or shutil.which("mpiexec"):
         return launcher
-    raise FileNotFoundError("mpirun is not on the PATH: install an MPI, name mpirun by the variable KAPITZA_MPIRUN, or take ranks=1")
+    raise FileNotFoundError(
+        "mpirun is not on the PATH: install an MPI, name mpirun by the variable KAPITZA_MPIRUN, or take ranks=1")
 
 
 def _word(word: str | os.PathLike[str]) -> str:
@@ -104,7 +111,8 @@ def _word(word: str | os.PathLike[str]) -> str:
 
 
 def environment() -> dict[str, str]:
-    """The variables that the program is started with: within a job of MPI without those that its launcher gave this process."""
+    """The variables that the program is started with: within a job of MPI without those that its launcher gave this
+    process."""
     own = dict(os.environ)
     if IN_A_JOB & own.keys():
         own = {name: value for name, value in own.items() if not name.startswith(JOB_SETTINGS)}
@@ -113,13 +121,15 @@ def environment() -> dict[str, str]:
 
 def ask(words: Sequence[str | os.PathLike[str]], scene: Scene, text: str | None = None) -> str:
     """What the program prints; SceneError or RunError where it ends otherwise. `text`: its standard input."""
-    done = subprocess.run(command(words), input=text and passed_on(text), capture_output=True, text=True, env=environment(), check=False)
+    done = subprocess.run(command(words), input=text and passed_on(text), capture_output=True, text=True,
+                          env=environment(), check=False)
     check_end(done.returncode, done.stderr, scene)
     return done.stdout
 
 
 def check_end(status: int, errors: str, scene: Scene) -> None:
-    """Raises what an exit status and the lines of standard error mean; warnings of the program become warnings of Python."""
+    """Raises what an exit status and the lines of standard error mean; warnings of the program become warnings of
+    Python."""
     lines = errors.splitlines()
     for line in lines:
         if "warning: " in line:
@@ -129,7 +139,8 @@ def check_end(status: int, errors: str, scene: Scene) -> None:
     said = [line.removeprefix(ERROR) for line in lines if line.startswith(ERROR)]
     text = said[-1] if said else "\n".join(lines[-5:]) or f"the program ended with status {status}"
     if status == REFUSED:
-        raise scene_error(text.replace("use --force to overwrite it", "force=True overwrites it, resume=True goes on from it"), scene)
+        raise scene_error(text.replace("use --force to overwrite it",
+                                       "force=True overwrites it, resume=True goes on from it"), scene)
     raise RunError(text)
 
 

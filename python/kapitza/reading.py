@@ -73,14 +73,16 @@ def group_of(path: Path, name: str, groups: list[str], pendulum: dict[str, Any])
 
 
 def arrays_of(path: Path, name: str) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """The variables and the attributes of a group as they are in the file, texts as str: what xarray adds takes many times longer.
+    """The variables and the attributes of a group as they are in the file, texts as str: what xarray adds takes many
+    times longer.
 
     :raises BadFile: if there is no such group, or if it is damaged
     """
     try:
         with h5py.File(path, "r") as file:
             group = file[name]
-            return {key: item.asstr()[:] if item.dtype == object else item[:] for key, item in group.items()}, _attributes(group)
+            return {key: item.asstr()[:] if item.dtype == object else item[:] for key,
+                    item in group.items()}, _attributes(group)
     except (OSError, KeyError, RuntimeError, ValueError) as error:
         raise BadFile(f"{path}: damaged in the group {name}") from error
 
@@ -101,7 +103,8 @@ def _too_large(path: Path, name: str) -> str | None:
         size = sum(item.nbytes for item in file[name].values() if isinstance(item, h5py.Dataset))
     memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     if 8 * size > memory:  # what reading and drawing it takes
-        return f"the group {name} holds {size / 1e9:.3g} GB, too much for a picture with {memory / 1e9:.3g} GB of memory"
+        return (f"the group {name} holds {size / 1e9:.3g} GB, too much for a picture with {memory / 1e9:.3g} GB of "
+                "memory")
     return None
 
 
@@ -130,7 +133,8 @@ class File:
 
     @cached_property
     def tree(self) -> xarray.DataTree:
-        """All groups as an xarray.DataTree, which reads values from the file when they are needed. `tree.close()` closes the file."""
+        """All groups as an xarray.DataTree, which reads values from the file when they are needed. `tree.close()`
+        closes the file."""
         for name in self.groups:
             if wrong := elsewhere(self.path, name):
                 raise BadFile(f"{self.path}: {wrong}")
@@ -159,11 +163,13 @@ class File:
     def group(self, name: str, *, si: bool = False, degrees: bool = False, written: bool = False) -> xarray.Dataset:
         """Reads a group of the file completely.
 
-        :param si: velocities in rad/s, times in s and frequencies in Hz, of a scene in SI units; the attribute `units` of each says so
+        :param si: velocities in rad/s, times in s and frequencies in Hz, of a scene in SI units; the attribute `units`
+            of each says so
         :param degrees: angles in degrees
-        :param written: values of a key that was swept in the unit that the scene writes, such as mm; the file has them in m
-        :raises BadFile: if the file has no such group, if the group is damaged or too large for the memory, or if `si` is asked of a scene
-            that is not in SI units
+        :param written: values of a key that was swept in the unit that the scene writes, such as mm; the file has them
+            in m
+        :raises BadFile: if the file has no such group, if the group is damaged or too large for the memory, or if `si`
+            is asked of a scene that is not in SI units
         """
         if si and self.pivot_frequency is None:
             raise BadFile(f"{self.path}: has no pivot_frequency, because its scene is not in SI units; leave out si")
@@ -172,13 +178,15 @@ class File:
         return units.in_written_units(dataset, name, layout.axes_of(name)) if written else dataset
 
     def add(self, group: str, dataset: xarray.Dataset) -> Self:
-        """A result with one more group, or another one of that name: what kapitza.manifolds, wada and tangency return. The file is
-        replaced when it is complete.
+        """A result with one more group, or another one of that name: what kapitza.manifolds, wada and tangency return.
+        The file is replaced when it is complete.
 
-        >>> result.add("manifolds", kapitza.manifolds(kapitza.Pendulum(result.scene), result.group("saddles"), kind="stable"))
+        >>> result.add("manifolds", kapitza.manifolds(kapitza.Pendulum(result.scene), result.group("saddles"),
+        kind="stable"))
         """
         if not group.isidentifier() or group == "pendulum" or group in self.groups and group not in layout.ADDED:
-            raise ValueError(f"{group!r} cannot be added; it must be another name than those of the program's own groups")
+            raise ValueError(
+                f"{group!r} cannot be added; it must be another name than those of the program's own groups")
         with tempfile.NamedTemporaryFile(dir=self.path.parent, prefix=self.path.name, delete=False) as new:
             try:
                 shutil.copy(self.path, new.name)  # with its mode
@@ -192,7 +200,8 @@ class File:
         return type(self)(self.path)
 
     def _read(self, name: str) -> xarray.Dataset:
-        """A group as it is in the file, which the caller may change. Of small ones a copy is kept, as xarray takes long to open a group."""
+        """A group as it is in the file, which the caller may change. Of small ones a copy is kept, as xarray takes long
+        to open a group."""
         if name in self._small:
             return self._small[name].copy(deep=True)
         dataset = group_of(self.path, name, self.groups, self.pendulum)

@@ -21,7 +21,8 @@ PNG = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"  # how each begins; width and height foll
 
 
 def pictures_of(path: Path) -> Iterator[Image.Image]:
-    """The pictures of a ZIP in the order of their names, all of the size of the first; BadFile where it holds anything else."""
+    """The pictures of a ZIP in the order of their names, all of the size of the first; BadFile where it holds anything
+    else."""
     try:
         with zipfile.ZipFile(path) as archive:
             size = None
@@ -29,16 +30,17 @@ def pictures_of(path: Path) -> Iterator[Image.Image]:
                 picture = _picture_of(archive, entry)
                 size = size or picture.size
                 yield picture if picture.size == size else picture.resize(size)
-    except (zipfile.BadZipFile, zlib.error, UnidentifiedImageError, NotImplementedError, RuntimeError, EOFError, SyntaxError,
-            ValueError) as error:
+    except (zipfile.BadZipFile, zlib.error, UnidentifiedImageError, NotImplementedError, RuntimeError, EOFError,
+            SyntaxError, ValueError) as error:
         raise BadFile(f"{path}: is not a ZIP of pictures as the explorer records them: {error}") from error
 
 
 def _picture_of(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Image.Image:
-    """One picture. What the directory and its header say of its size is looked at before it is read; ValueError where it is no PNG or
-    too large."""
+    """One picture. What the directory and its header say of its size is looked at before it is read; ValueError where
+    it is no PNG or too large."""
     if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED) or entry.file_size > MOST_BYTES:
-        raise ValueError(f"{entry.filename} takes more than {MOST_BYTES / 1e6:.0f} MB, or is packed in a way of its own")
+        raise ValueError(
+            f"{entry.filename} takes more than {MOST_BYTES / 1e6:.0f} MB, or is packed in a way of its own")
     with archive.open(entry) as file:
         head = file.read(len(PNG) + 8)
     if not head.startswith(PNG) or len(head) < len(PNG) + 8:
@@ -51,9 +53,11 @@ def _picture_of(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Image.Image
 
 def main(words: list[str]) -> None:
     """Writes the film and prints its name."""
-    parser = Parser(prog="kapitza plot film", description="an MP4 or GIF of the pictures that the explorer has recorded")
+    parser = Parser(prog="kapitza plot film",
+                    description="an MP4 or GIF of the pictures that the explorer has recorded")
     parser.add_argument("file", type=Path, help="ZIP of PNG pictures")
-    parser.add_argument("-o", "--output", type=Path, help="NAME.mp4 or NAME.gif (default: FILE's name with .mp4; .gif without ffmpeg)")
+    parser.add_argument("-o", "--output", type=Path,
+                        help="NAME.mp4 or NAME.gif (default: FILE's name with .mp4; .gif without ffmpeg)")
     parser.add_argument("--rate", type=float, default=RATE, help=f"pictures a second (default: {RATE:g})")
     given = parser.parse_args(words)
     output = given.output or given.file.with_suffix(".mp4")

@@ -24,7 +24,8 @@ def pendulum_text(result: "Result") -> str:
     """The pendulum: of a scene in SI units as people build it, else in the papers' symbols."""
     pendulum = result.pendulum
     papers = [f"{symbol} = {pendulum[key]:.6g}" for symbol, key in
-              (("Q", "quality_factor"), ("Omega", "drive_frequency"), ("epsilon", "drive_amplitude")) if key in pendulum]
+              (("Q", "quality_factor"), ("Omega", "drive_frequency"), ("epsilon", "drive_amplitude"))
+              if key in pendulum]
     own = [f"{name} = {pendulum[name]:.6g}" for name in ("k", "beta", "m", *TORQUES) if name in pendulum]
     return ", ".join([*si_parameters(pendulum).values(), *own] if "pivot_frequency" in pendulum else own + papers)
 
@@ -54,7 +55,8 @@ def _rows(result: "Result") -> list[list[str]]:
     if "fraction" in table:
         table = table.sort_values("fraction", ascending=False, kind="stable")
     known = [name for name in COLUMNS if name in table]
-    return [["id", *known], *([str(index), *(COLUMNS[name](row[name]) for name in known)] for index, row in table.head(MOST).iterrows())]
+    return [["id", *known], *([str(index), *(COLUMNS[name](row[name]) for name in known)] for index,
+                              row in table.head(MOST).iterrows())]
 
 
 def _more(result: "Result") -> str:
@@ -66,7 +68,8 @@ def as_text(result: "Result") -> str:
     """The title, the pendulum, the groups and the attractors, a line each."""
     rows = _rows(result)
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    table = ["  " + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+    table = ["  " + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+             for row in rows]
     lines = [result.title, pendulum_text(result), *_studies(result), *table, _more(result)]
     return "\n".join(filter(None, lines))
 

@@ -16,11 +16,13 @@ import yaml
 from kapitza.bounded_reading import read_text
 
 # Symbols that a scene may write instead of these keys of the pendulum and of the study stability.
-SYMBOLS = {"Q": "quality_factor", "Omega": "drive_frequency", "epsilon": "drive_amplitude", "beta": "damping", "gamma": "torque_ratio"}
+SYMBOLS = {"Q": "quality_factor", "Omega": "drive_frequency", "epsilon": "drive_amplitude", "beta": "damping",
+           "gamma": "torque_ratio"}
 _PLAIN = re.compile(r"(?!-( |$))[\w.+/-]([\w.+/ -]*[\w.+/-])?")  # a text that YAML takes as it is, on one line
 
 
-class _Dumper(yaml.emitter.Emitter, yaml.serializer.Serializer, yaml.representer.SafeRepresenter, yaml.resolver.BaseResolver):
+class _Dumper(yaml.emitter.Emitter, yaml.serializer.Serializer, yaml.representer.SafeRepresenter,
+              yaml.resolver.BaseResolver):
     """Writes texts as they are: quoted only where YAML needs it, so that a number given as text stays a number."""
 
     def __init__(self, stream: Any, **options: Any) -> None:
@@ -97,13 +99,15 @@ def _is_text(scene: Any) -> bool:
 
 
 class _Plain:
-    """Refuses what the program refuses in a scene: a few aliases stand for gigabytes, and tags for values of any kind."""
+    """Refuses what the program refuses in a scene: a few aliases stand for gigabytes, and tags for values of any
+    kind."""
 
     def compose_node(self, parent: Any, index: Any) -> Any:
         event = self.peek_event()  # type: ignore[attr-defined]
         for part, words in (("anchor", "an anchor (&name) or an alias (*name)"), ("tag", "a tag (!name)")):
             if getattr(event, part, None) is not None:
-                raise yaml.MarkedYAMLError(problem=f"{words} stands here; write the value out", problem_mark=event.start_mark)
+                raise yaml.MarkedYAMLError(problem=f"{words} stands here; write the value out",
+                                           problem_mark=event.start_mark)
         return super().compose_node(parent, index)  # type: ignore[misc]
 
 
@@ -116,7 +120,8 @@ class _Values(_Plain, yaml.SafeLoader):
 
 
 def read_yaml(text: str, as_texts: bool = False) -> Any:
-    """What a YAML text says, numbers as texts where `as_texts`; yaml.YAMLError where it is none, or has anchors, aliases or tags."""
+    """What a YAML text says, numbers as texts where `as_texts`; yaml.YAMLError where it is none, or has anchors,
+    aliases or tags."""
     try:
         return yaml.load(text, _Texts if as_texts else _Values)
     except RecursionError:
@@ -143,8 +148,8 @@ def _named(key: str, value: Any) -> Any:
 
 
 def _single_keys(changes: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
-    """The changes by the full names of their keys: those of a mapping one by one; a key that stands alone is one of the pendulum, as a
-    scene itself has mappings and a title only."""
+    """The changes by the full names of their keys: those of a mapping one by one; a key that stands alone is one of the
+    pendulum, as a scene itself has mappings and a title only."""
     for name, value in ((str(name), value) for name, value in changes.items()):
         key = above + name
         if isinstance(value, Mapping) and value and (above or "." not in name):
@@ -196,8 +201,8 @@ def flow(value: Any) -> str:
 
 @cache
 def session_folder() -> Path:
-    """A folder of this Python session, removed at its end: results and scenes that were given no name of their own. A forked process
-    that ends leaves it to its parent."""
+    """A folder of this Python session, removed at its end: results and scenes that were given no name of their own. A
+    forked process that ends leaves it to its parent."""
     folder, owner = Path(tempfile.mkdtemp(prefix="kapitza-")), os.getpid()
     atexit.register(lambda: shutil.rmtree(folder, ignore_errors=True) if os.getpid() == owner else None)
     return folder
@@ -209,7 +214,8 @@ def new_path(name: str) -> Path:
 
 
 def passed_on(text: str, file_name: bool = False) -> str:
-    """The text, if a program can be given it; names of files may hold bytes that are no letters, which Python has as surrogates."""
+    """The text, if a program can be given it; names of files may hold bytes that are no letters, which Python has as
+    surrogates."""
     try:
         text.encode(errors="surrogateescape" if file_name else "strict")
     except UnicodeEncodeError as error:

@@ -1,8 +1,9 @@
-"""How kapitza's figures look: one table of colours that keep their meaning from figure to figure, and the page settings.
+"""How kapitza's figures look: one table of colours that keep their meaning from figure to figure, and the page
+settings.
 
 A colour belongs to a kind of motion, not to an id: the inverted state is amber in every figure. Light and dark shades
-within a kind tell periods and mirror partners apart; where they would not, in one catalogue, the rarer motion gets another hue.
-The kinds stay apart for colour-blind readers (tests/python/pictures/test_colours.py).
+within a kind tell periods and mirror partners apart; where they would not, in one catalogue, the rarer motion gets
+another hue. The kinds stay apart for colour-blind readers (tests/python/pictures/test_colours.py).
 """
 
 import warnings
@@ -74,8 +75,8 @@ def kind(period: int, winding: int, centre: int) -> str:
 
 
 def colours(attractors: xarray.Dataset, apart: Iterable[int] | None = None) -> list[str]:
-    """One colour (hex) per attractor of the dataset `attractors`: that of its motion, moved in hue where another one is too near;
-    `apart`: the ids that must be distinguished (default: all)."""
+    """One colour (hex) per attractor of the dataset `attractors`: that of its motion, moved in hue where another one is
+    too near; `apart`: the ids that must be distinguished (default: all)."""
     rows = list(zip(attractors["period"].values, attractors["winding"].values, attractors["centre"].values,
                     attractors["mirror"].values, strict=True))
     order = sorted(range(len(rows)) if apart is None else apart,
@@ -105,7 +106,8 @@ def _told_apart(wanted: Sequence[str], order: Iterable[int]) -> list[str]:
 
 def _variants(colour: str) -> list[tuple[str, np.ndarray]]:
     """(colour, its OKLab) of other hues and lightnesses, the nearest hues first; never paler than is seen."""
-    lightness, chroma, hue = _oklab(colour)[0], max(np.hypot(*_oklab(colour)[1:]), 0.09), np.arctan2(*_oklab(colour)[:0:-1])
+    lightness, chroma, hue = _oklab(colour)[0], max(np.hypot(*_oklab(colour)[1:]),
+                                                    0.09), np.arctan2(*_oklab(colour)[:0:-1])
     found = []
     for turn in np.radians((0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)):
         for lighter in (0, -0.12, 0.12, -0.24):
@@ -116,7 +118,8 @@ def _variants(colour: str) -> list[tuple[str, np.ndarray]]:
 
 
 def oklab(rgb: np.ndarray) -> np.ndarray:
-    """(L, a, b) of B. Ottosson's OKLab (2020), in which equal distances look about equally different; rgb [.., 3] in 0 .. 1."""
+    """(L, a, b) of B. Ottosson's OKLab (2020), in which equal distances look about equally different; rgb [.., 3] in 0
+    .. 1."""
     linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
     return np.asarray(np.cbrt(linear @ _OKLAB[0].T) @ _OKLAB[1].T)
 
@@ -214,9 +217,11 @@ def settings(font_size: float = FONT_SIZE) -> dict[str, Any]:
     """The page settings of every figure, for matplotlib's rcParams. Text stays text in SVG and PDF."""
     scale = font_size / FONT_SIZE
     ticks = {f"{axis}tick.{which}": size * scale for axis in "xy" for which, size in
-             (("major.width", 0.7), ("major.size", 3.5), ("major.pad", 3.5), ("minor.width", 0.6), ("minor.size", 2.0), ("minor.pad", 3.4))}
+             (("major.width", 0.7), ("major.size", 3.5), ("major.pad", 3.5), ("minor.width", 0.6), ("minor.size", 2.0),
+              ("minor.pad", 3.4))}
     return {
-        "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": font_size, "mathtext.fontset": "dejavusans",
+        "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": font_size,
+        "mathtext.fontset": "dejavusans",
         "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": INK, "xtick.color": INK, "ytick.color": INK,
         "axes.linewidth": 0.7 * scale, "axes.labelpad": 4.0 * scale, **ticks,
         "axes.titlelocation": "left", "axes.titlesize": "large", "axes.titleweight": "bold",
@@ -232,7 +237,8 @@ def use() -> None:
 
 @contextmanager
 def using(font_size: float = FONT_SIZE, colours: Mapping[str, str] | None = None) -> Iterator[None]:
-    """Figures drawn inside have these letters, and `colours` (name of an attractor, or kind of motion, -> colour) before those of KINDS."""
+    """Figures drawn inside have these letters, and `colours` (name of an attractor, or kind of motion, -> colour)
+    before those of KINDS."""
     token = _chosen.set({name: to_hex(colour) for name, colour in (colours or {}).items()})
     try:
         with mpl.rc_context(settings(font_size)):  # type: ignore[arg-type]

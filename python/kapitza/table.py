@@ -1,4 +1,5 @@
-"""The attractors of a result as a table, and the labels of its basin as an array with its flags; the table of measures."""
+"""The attractors of a result as a table, and the labels of its basin as an array with its flags; the table of
+measures."""
 
 import re
 from typing import Any
@@ -16,9 +17,9 @@ PLAIN = ("amplitude", "mean_velocity", "lyapunov", "lyapunov_error", "fraction")
 
 
 def attractors_table(attractors: xarray.Dataset) -> pandas.DataFrame:
-    """A row each, by id: name, period (0: it never closes), winding, centre, symmetric, mirror (id), amplitude (rad), mean_velocity,
-    lyapunov and its error (per drive period), fraction (share of the grid), multipliers (complex), strobe_theta (rad) and
-    strobe_velocity (lists)."""
+    """A row each, by id: name, period (0: it never closes), winding, centre, symmetric, mirror (id), amplitude (rad),
+    mean_velocity, lyapunov and its error (per drive period), fraction (share of the grid), multipliers (complex),
+    strobe_theta (rad) and strobe_velocity (lists)."""
     count = attractors.sizes["attractor"]
     columns: dict[str, object] = {"name": [str(name) for name in attractors["name"].values],
                                   "period": attractors["period"].values, "winding": attractors["winding"].values,
@@ -61,13 +62,15 @@ def ids_of(name: int | str, plain: list[str], full: list[str]) -> list[int]:
 
 
 def flag_words(names: list[str]) -> list[str]:
-    """The names as words of a CF flag_meanings: rotation_+1_in_2, inverted_3-nodding_2 (with its id where two have one name)."""
+    """The names as words of a CF flag_meanings: rotation_+1_in_2, inverted_3-nodding_2 (with its id where two have one
+    name)."""
     words = [re.sub(r"[^A-Za-z0-9_.+@-]", "_", name.replace("/", "_in_")) for name in names]
     return [f"{word}_{index}" if words.count(word) > 1 else word for index, word in enumerate(words)]
 
 
 def labels_array(basin: xarray.Dataset, attractors: xarray.Dataset) -> xarray.DataArray:
-    """The labels over velocity and theta; attributes flag_values and flag_meanings say which number is which attractor."""
+    """The labels over velocity and theta; attributes flag_values and flag_meanings say which number is which
+    attractor."""
     labels = basin["attractor"].copy()
     names = [str(name) for name in attractors["name"].values]
     labels.attrs["flag_values"] = np.arange(-1, len(names), dtype=labels.dtype)
@@ -88,14 +91,16 @@ def edges_of(basin: xarray.Dataset, name: str) -> tuple[float, float]:
     """
     centres = basin[name].values
     if f"{name}_offset" in basin:
-        raise ValueError("the window is given by a centre of many digits, which numbers cannot find; kapitza.where follows such starts")
+        raise ValueError("the window is given by a centre of many digits, which numbers cannot find; kapitza.where "
+                         "follows such starts")
     if len(centres) < 2:
         raise ValueError(f"the basin has a single {name}, whose cell has no width in the file")
     half = (centres[-1] - centres[0]) / (len(centres) - 1) / 2
     return float(centres[0] - half), float(centres[-1] + half)
 
 
-def cells_of(basin: xarray.Dataset, theta: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def cells_of(basin: xarray.Dataset, theta: np.ndarray,
+             velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Starts (rad, rad per drive radian; of one shape) as (theta within the window, row and column of their cells).
 
     :raises ValueError: if one lies outside the window
@@ -108,24 +113,29 @@ def cells_of(basin: xarray.Dataset, theta: np.ndarray, velocity: np.ndarray) -> 
         first = int(np.argmax(outside.ravel()))
         start = f"theta = {theta.ravel()[first]:.9g} rad, velocity = {velocity.ravel()[first]:.9g}"
         raise ValueError(f"the start {start} lies outside the window: "
-                         f"theta from {left:.9g} to {right:.9g}, velocity from {low:.9g} to {high:.9g} rad per drive radian")
-    rows, columns = (np.clip(((place - first) / (last - first) * basin.sizes[name]).astype(int), 0, basin.sizes[name] - 1)
+                         f"theta from {left:.9g} to {right:.9g}, velocity from {low:.9g} to {high:.9g} rad per drive "
+                         "radian")
+    rows, columns = (np.clip(((place - first) / (last - first) * basin.sizes[name]).astype(int), 0,
+                             basin.sizes[name] - 1)
                      for place, first, last, name in ((velocity, low, high, "velocity"), (theta, left, right, "theta")))
     return theta, rows, columns
 
 
 def starts_table(basin: xarray.Dataset, names: list[str], theta: Any, velocity: Any,
                  frequency: float | None) -> pandas.DataFrame | pandas.Series:
-    """What the cells of starts say, as `Result.at` returns it. `frequency`: of the pivot, rad/s, for velocities with a unit."""
+    """What the cells of starts say, as `Result.at` returns it. `frequency`: of the pivot, rad/s, for velocities with a
+    unit."""
     named = {-1: "not settled", **dict(enumerate(names))}
     pairs = np.broadcast(np.asarray(theta, dtype=object), np.asarray(velocity, dtype=object))
     starts = [(units.angle(one), units.velocity(other, frequency)) for one, other in pairs]
     angles, speeds = np.array(starts).reshape(-1, 2).T
     angles, rows, columns = cells_of(basin, angles, speeds)
     labels = basin["attractor"].values[rows, columns]
-    table = pandas.DataFrame({"theta": angles, "velocity": speeds, "attractor": labels, "name": [named[int(label)] for label in labels],
+    table = pandas.DataFrame({"theta": angles, "velocity": speeds, "attractor": labels,
+                              "name": [named[int(label)] for label in labels],
                               "settling_time": basin["settling_time"].values[rows, columns],
-                              "evidence": [flag_word(basin["evidence"], code) for code in basin["evidence"].values[rows, columns]]})
+                              "evidence": [flag_word(basin["evidence"], code)
+                                           for code in basin["evidence"].values[rows, columns]]})
     if "turns" in basin:
         table["turns"] = pandas.array(basin["turns"].values[rows, columns], dtype="Int64")
     return table if pairs.shape else table.iloc[0]

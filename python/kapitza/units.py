@@ -1,4 +1,5 @@
-"""Units in one place: which numbers of a result are in units of the drive, what they are in SI, and what people write behind a number."""
+"""Units in one place: which numbers of a result are in units of the drive, what they are in SI, and what people write
+behind a number."""
 
 import math
 import re
@@ -10,7 +11,8 @@ import numpy as np
 import xarray
 
 TURN = 2 * math.pi
-# What a long_name says behind its last ", in " -> the unit in SI, and what one of it is there for a drive of 1 rad/s and of omega rad/s:
+# What a long_name says behind its last ", in " -> the unit in SI, and what one of it is there for a drive of 1 rad/s
+# and of omega rad/s:
 # factor * omega ** power.
 SI: dict[str, tuple[str, float, int]] = {
     "rad per drive radian": ("rad s-1", 1, 1), "drive radians": ("s", 1, -1), "drive periods": ("s", TURN, -1),
@@ -25,11 +27,11 @@ FREQUENCIES = {"frequency": TURN, "pivot_frequency": 1.0}  # keys of the drive's
 
 
 def in_units(dataset: xarray.Dataset, omega: float | None = None, degrees: bool = False) -> xarray.Dataset:
-    """The dataset with numbers in other units, coordinates too. Their attribute `units` says which, and `drive_unit` what one unit of the
-    drive (of an angle: one rad) is in them, where it is the same for all values.
+    """The dataset with numbers in other units, coordinates too. Their attribute `units` says which, and `drive_unit`
+    what one unit of the drive (of an angle: one rad) is in them, where it is the same for all values.
 
-    :param omega: angular frequency of the drive, rad/s: velocities come in rad/s, times in s, frequencies in Hz; None = they stay. Where
-        the group is along or over frequencies of the drive, each value is of its own
+    :param omega: angular frequency of the drive, rad/s: velocities come in rad/s, times in s, frequencies in Hz; None =
+        they stay. Where the group is along or over frequencies of the drive, each value is of its own
     :param degrees: angles in degrees
     """
     changed, own = {}, None if omega is None else _own_frequency(dataset)
@@ -50,11 +52,13 @@ def in_units(dataset: xarray.Dataset, omega: float | None = None, degrees: bool 
         one = {"drive_unit": scale} if isinstance(scale, float) else {}
         changed[name] = (variable.dims, values, variable.attrs | {"units": units, "long_name": meaning} | one)
     coordinates = {name: value for name, value in changed.items() if name in dataset.coords}
-    return dataset.assign({name: value for name, value in changed.items() if name not in coordinates}).assign_coords(coordinates)
+    return dataset.assign({name: value for name, value in changed.items()
+                           if name not in coordinates}).assign_coords(coordinates)
 
 
 def _own_frequency(dataset: xarray.Dataset) -> xarray.Variable | None:
-    """The angular frequency of the drive, rad/s, at each value of a swept frequency; None if the drive has one frequency."""
+    """The angular frequency of the drive, rad/s, at each value of a swept frequency; None if the drive has one
+    frequency."""
     for key, axis in (("parameter", "value"), ("x_parameter", "x"), ("y_parameter", "y")):
         if dataset.attrs.get(key) in FREQUENCIES and axis in dataset.variables:
             return dataset.variables[axis].to_base_variable() * FREQUENCIES[dataset.attrs[key]]
@@ -88,7 +92,8 @@ def drive_unit(variable: xarray.DataArray) -> float:
 
 
 def unit_text(variable: xarray.DataArray) -> str:
-    """The unit of a variable as people write it: that of its attribute, or of the drive, which stands in its long name; "" of a number."""
+    """The unit of a variable as people write it: that of its attribute, or of the drive, which stands in its long name;
+    "" of a number."""
     units, long_name = str(variable.attrs.get("units", "1")), str(variable.attrs.get("long_name", ""))
     if units == "1":
         return long_name.rpartition(", in ")[2] if ", in " in long_name else ""
@@ -135,7 +140,8 @@ def angle(value: Any) -> float:
 
 
 def velocity(value: Any, omega: float | None) -> float:
-    """A velocity in rad per drive radian: a number, or a text such as "3 rad/s" or "90 deg/s" if `omega` (rad/s) is known.
+    """A velocity in rad per drive radian: a number, or a text such as "3 rad/s" or "90 deg/s" if `omega` (rad/s) is
+    known.
 
     :raises ValueError: if the text is none of these
     """
@@ -164,7 +170,8 @@ def quantity(value: Any, known: Mapping[str, float]) -> float:
 
 
 def parts_of(text: str) -> tuple[str, str] | None:
-    """A number and the unit behind it, "" without one, of a text such as "20 cm" or "50Hz"; None if the text is no number."""
+    """A number and the unit behind it, "" without one, of a text such as "20 cm" or "50Hz"; None if the text is no
+    number."""
     found = re.fullmatch(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*", text)
     return (found[1], found[2]) if found else None
 
@@ -177,7 +184,8 @@ def _number(text: str, value: str, wanted: str) -> float:
 
 
 def written_frequency(pendulum: Mapping[str, Any]) -> float | None:
-    """The angular frequency (rad/s) that the mapping `pendulum` of a scene gives by frequency or pivot_frequency; None = neither."""
+    """The angular frequency (rad/s) that the mapping `pendulum` of a scene gives by frequency or pivot_frequency; None
+    = neither."""
     for name, factor in (("pivot_frequency", 1 / TURN), ("frequency", 1.0)):
         text = str(pendulum.get(name, "")).strip()
         try:
@@ -194,7 +202,8 @@ def length_text(metres: float) -> str:
 
 
 def si_parameters(pendulum: Mapping[str, Any]) -> dict[str, str]:
-    """A pendulum in SI in a few words, by the keys of a scene: {"length": "length 20 cm", "frequency": "50 Hz", ...}."""
+    """A pendulum in SI in a few words, by the keys of a scene: {"length": "length 20 cm", "frequency": "50 Hz",
+    ...}."""
     words = {name: f"{name} {length_text(pendulum[name])}" for name in ("length", "radius") if name in pendulum}
     words["frequency"] = f"{pendulum['pivot_frequency'] / TURN:.6g} Hz"
     if "pivot_amplitude" in pendulum:

@@ -1,6 +1,8 @@
-"""`kapitza plot vtkhdf FILE [-o FILE.vtkhdf]`: a small file beside a result through which ParaView and VTK read its basins.
+"""`kapitza plot vtkhdf FILE [-o FILE.vtkhdf]`: a small file beside a result through which ParaView and VTK read its
+basins.
 
-It is VTK's own HDF layout (ImageData, version 2.0), whose cells are external links to the variables of FILE: both move together.
+It is VTK's own HDF layout (ImageData, version 2.0), whose cells are external links to the variables of FILE: both move
+together.
 """
 
 import os
@@ -24,7 +26,8 @@ def write(result: Result, output: Path) -> None:
         raise BadFile(f"{output}: is the result itself; choose another name for the sidecar")
     try:
         extent, origin, spacing = _window(result)
-    except (AttributeError, KeyError, OSError, RuntimeError, TypeError, ValueError) as error:  # h5py's words for bytes that are damaged
+    # H5py's words for bytes that are damaged
+    except (AttributeError, KeyError, OSError, RuntimeError, TypeError, ValueError) as error:
         raise BadFile(f"{result.path}: damaged in the group basin") from error
     link = os.path.relpath(result.path.resolve(), output.resolve().parent)
     with tempfile.TemporaryDirectory(dir=output.parent, prefix=".kapitza-") as folder:
@@ -45,7 +48,8 @@ def write(result: Result, output: Path) -> None:
 
 
 def _window(result: Result) -> tuple[list[int], list[float], list[float]]:
-    """Extent, lower corner and size of the cells: theta along x, velocity along y; BadFile where the group is not whole."""
+    """Extent, lower corner and size of the cells: theta along x, velocity along y; BadFile where the group is not
+    whole."""
     with h5py.File(result.path, "r") as file:
         group = file["basin"]
         lacking = [name for name in ("theta", "velocity", *VARIABLES) if name not in group]

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
     from kapitza.library import Library
 
-_COLUMNS = ("from", "into", "saddle", "barrier", "largest_torque", "barrier_by_k", "barrier_by_m", "barrier_by_beta", "is_gate", "agrees",
-            "starts")
+_COLUMNS = ("from", "into", "saddle", "barrier", "largest_torque", "barrier_by_k", "barrier_by_m", "barrier_by_beta",
+            "is_gate", "agrees", "starts")
 
 
 class WaysOut:
@@ -37,9 +37,11 @@ class WaysOut:
 
     @property
     def table(self) -> pandas.DataFrame:
-        """A row for each path: names of the motions that it leaves and reaches, id of the saddle, `barrier`, slopes of the barrier ..."""
+        """A row for each path: names of the motions that it leaves and reaches, id of the saddle, `barrier`, slopes of
+        the barrier ..."""
         escape, saddles = self.result.group("escape"), self.result.group("saddles")["name"].values
-        rows = pandas.DataFrame({name: escape[name].values for name in _COLUMNS}, index=pandas.Index(escape["route"].values, name="route"))
+        rows = pandas.DataFrame({name: escape[name].values for name in _COLUMNS},
+                                index=pandas.Index(escape["route"].values, name="route"))
         for column in ("from", "into"):
             rows[column] = [self.names[number] if number >= 0 else "none" for number in rows[column]]
         rows.insert(3, "saddle_name", [style.name_text(saddles[number]) for number in rows["saddle"]])
@@ -47,10 +49,13 @@ class WaysOut:
 
     @property
     def barriers(self) -> pandas.DataFrame:
-        """For each motion that is left: `barrier` out of its basin, `life_exponent`, the `island` on the way, the `route`."""
+        """For each motion that is left: `barrier` out of its basin, `life_exponent`, the `island` on the way, the
+        `route`."""
         escape = self.result.group("escape")
-        rows = pandas.DataFrame({"barrier": escape["barrier_out"].values, "life_exponent": escape["life_exponent"].values,
-                                 "island": [self.names[number] if number >= 0 else "" for number in escape["island"].values],
+        rows = pandas.DataFrame({"barrier": escape["barrier_out"].values,
+                                 "life_exponent": escape["life_exponent"].values,
+                                 "island": [self.names[number] if number >= 0 else ""
+                                            for number in escape["island"].values],
                                  "route": escape["way_out"].values}, index=pandas.Index(self.names, name="attractor"))
         return rows[rows["route"] >= 0]
 
@@ -84,10 +89,13 @@ class WaysOut:
         :raises ValueError: if the path is not among those of least action
         """
         escape = self.result.group("escape")
-        points = escape[["theta", "velocity", "torque", "time"]].isel(point=np.flatnonzero(escape["path"].values == route))
+        points = escape[["theta", "velocity", "torque",
+                         "time"]].isel(point=np.flatnonzero(escape["path"].values == route))
         if points.sizes["point"] == 0:
-            raise ValueError(f"path {route} is not the least into any basin; those are {sorted(set(escape['path'].values.tolist()))}")
-        return points.swap_dims(point="time").reset_coords("point", drop=True).assign_attrs(action=float(escape["barrier"].values[route]))
+            raise ValueError(f"path {route} is not the least into any basin; those are "
+                             f"{sorted(set(escape['path'].values.tolist()))}")
+        return points.swap_dims(point="time").reset_coords("point", drop=True).assign_attrs(
+            action=float(escape["barrier"].values[route]))
 
     def plot(self, attractor: str | int | None = None, into: str | int | None = None, **options: Any) -> "Figure":
         """The path in the plane and its torque below, as `kapitza plot escape` draws them."""
@@ -96,9 +104,11 @@ class WaysOut:
         return self.result.plot("escape", **options)
 
 
-def scene_of(tree: Mapping[str, Any], max_period: int, velocity: Sequence[float], escape: Mapping[str, Any]) -> dict[str, Any]:
+def scene_of(tree: Mapping[str, Any], max_period: int, velocity: Sequence[float],
+             escape: Mapping[str, Any]) -> dict[str, Any]:
     """The scene of ways out of a pendulum: `tree` has its mappings."""
     low, high = (float(edge) for edge in velocity)
     scene = {name: tree[name] for name in ("pendulum", "numerics") if name in tree}
     window = {"min": low, "max": high}
-    return scene | {"attractors": {"velocity": window}, "saddles": {"velocity": window, "max_period": max_period}, "escape": dict(escape)}
+    return scene | {"attractors": {"velocity": window}, "saddles": {"velocity": window, "max_period": max_period},
+                    "escape": dict(escape)}

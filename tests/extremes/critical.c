@@ -16,7 +16,7 @@ static const kz_numerics fine = {.scheme = SPLIT6, .steps_per_period = 96},
                          usual = {.scheme = SPLIT6, .steps_per_period = 24},
                          rk4 = {.scheme = RK4, .steps_per_period = 100};
 
-static kz_pendulum blackburn(double m) {
+static kz_pendulum critical_blackburn(double m) {
   return (kz_pendulum){1.0 / 121, 1.0 / 55, m};
 }
 
@@ -27,7 +27,7 @@ static kz_pendulum second_tongue(double m) {
 }
 
 /* The multiplier of a rest position that is farthest from 0. */
-static double multiplier(const kz_pendulum *pendulum, const kz_numerics *numerics, double theta) {
+static double critical_multiplier(const kz_pendulum *pendulum, const kz_numerics *numerics, double theta) {
   double velocity = 0;
   kz_attractor cycle;
   kz_dynamics_close_cycle(pendulum, numerics, 1, 0.1, &theta, &velocity, &cycle);
@@ -36,13 +36,13 @@ static double multiplier(const kz_pendulum *pendulum, const kz_numerics *numeric
 }
 
 /* The m between low and high from which on |multiplier| > 1. */
-static double critical(kz_pendulum (*family)(double), const kz_numerics *numerics, double theta, double low,
-                       double high) {
+static double critical_critical(kz_pendulum (*family)(double), const kz_numerics *numerics, double theta, double low,
+                                double high) {
   for (;;) {
     const double m = (low + high) / 2;
     if (m <= low || m >= high) return low;
     const kz_pendulum pendulum = family(m);
-    if (fabs(multiplier(&pendulum, numerics, theta)) < 1)
+    if (fabs(critical_multiplier(&pendulum, numerics, theta)) < 1)
       low = m;
     else
       high = m;
@@ -52,14 +52,14 @@ static double critical(kz_pendulum (*family)(double), const kz_numerics *numeric
 /* Where flutter begins, to the last digits of the reference; how far the steps of a scene move it. */
 TEST(the_flip_is_where_it_should_be) {
   const double known = 0.46819030239029;
-  assert_true(fabs(critical(blackburn, &fine, PI, 0.468, 0.4684) - known) < 1e-14);
-  assert_true(fabs(critical(blackburn, &usual, PI, 0.468, 0.4684) - known) < 2e-12);
-  assert_true(fabs(critical(blackburn, &rk4, PI, 0.468, 0.4684) - known) < 4e-8);
+  assert_true(fabs(critical_critical(critical_blackburn, &fine, PI, 0.468, 0.4684) - known) < 1e-14);
+  assert_true(fabs(critical_critical(critical_blackburn, &usual, PI, 0.468, 0.4684) - known) < 2e-12);
+  assert_true(fabs(critical_critical(critical_blackburn, &rk4, PI, 0.468, 0.4684) - known) < 4e-8);
 }
 
 /* A search near n states from (theta, velocity), each offset a little less than the one before. */
-static kz_dynamics *searched(const kz_pendulum *pendulum, const kz_numerics *numerics, const double centre[2],
-                             const double largest[2], double smallest) {
+static kz_dynamics *critical_searched(const kz_pendulum *pendulum, const kz_numerics *numerics, const double centre[2],
+                                      const double largest[2], double smallest) {
   double state[2 * STATES];
   int32_t label[STATES];
   int64_t periods[STATES];
@@ -78,11 +78,12 @@ static kz_dynamics *searched(const kz_pendulum *pendulum, const kz_numerics *num
 
 /* Either side of epsilon_c: below, inverted attracts without flutter; above, flutter grows as a square root. */
 TEST(a_flip_is_never_mistaken) {
-  const double begin = critical(blackburn, &fine, PI, 0.468, 0.4684), centre[2] = {PI, 0}, offset[2] = {-0.01, 0.001};
+  const double begin = critical_critical(critical_blackburn, &fine, PI, 0.468, 0.4684), centre[2] = {PI, 0},
+               offset[2] = {-0.01, 0.001};
   for (int i = 0; i < 240; i += getenv("KAPITZA_EXTENSIVE") ? 1 : 8) {
     const double distance = (i % 3 ? -1 : 1) * pow(10, -12 + 6.0 * i / 240);
-    const kz_pendulum pendulum = blackburn(begin + distance);
-    kz_dynamics *d = searched(&pendulum, &usual, centre, offset, 1e-4);
+    const kz_pendulum pendulum = critical_blackburn(begin + distance);
+    kz_dynamics *d = critical_searched(&pendulum, &usual, centre, offset, 1e-4);
     int inverted = 0;
     for (int64_t a = 1; a <= kz_dynamics_count(d); a++) {
       kz_attractor row;
@@ -104,11 +105,11 @@ TEST(a_flip_is_never_mistaken) {
 /* Beyond the pitchfork of `down` two mirror images attract, so far apart. */
 TEST(mirror_images_are_two) {
   const kz_numerics steps = {.scheme = SPLIT6, .steps_per_period = 192};
-  const double begin = critical(second_tongue, &steps, 0, 0.995, 0.996), centre[2] = {0, 0};
+  const double begin = critical_critical(second_tongue, &steps, 0, 0.995, 0.996), centre[2] = {0, 0};
   for (double apart = 1e-3; apart > 5e-7; apart /= 10) { /* rounding may leave open where the nearest pair is */
     const kz_pendulum pendulum = second_tongue(begin + pow(apart / 5.04, 2));
     const double offset[2] = {0.6 * apart, 0.45 * apart};
-    kz_dynamics *d = searched(&pendulum, &steps, centre, offset, 0.5);
+    kz_dynamics *d = critical_searched(&pendulum, &steps, centre, offset, 0.5);
     const int64_t count = kz_dynamics_count(d);
     if (!(count == 2 || (count == 0 && apart < 5e-6))) fail_msg("%d attractors, not two %g apart", (int)count, apart);
     kz_attractor row[2];

@@ -12,7 +12,7 @@ enum { RK4 = 0, SPLIT6 = 1, PROCESSED = 2, N = 8 }; /* rows of the schemes */
 
 static const kz_numerics fine = {.scheme = SPLIT6, .steps_per_period = 24};
 
-static void advance(const kz_pendulum *pendulum, const kz_numerics *numerics, double *theta, double *velocity) {
+static void numbers_advance(const kz_pendulum *pendulum, const kz_numerics *numerics, double *theta, double *velocity) {
   int64_t turns[N] = {0};
   kz_flow *flow = kz_flow_create(pendulum, numerics);
   assert_non_null(flow);
@@ -38,7 +38,7 @@ static double true_error(const kz_pendulum *pendulum, const kz_numerics *numeric
   kz_reference_start(N, theta, velocity, NULL, states);
   kz_reference_advance(pendulum, KZ_REFERENCE_STEPS, N, 1, states);
   kz_reference_read(N, states, theta_true, velocity_true, turns);
-  advance(pendulum, numerics, theta, velocity);
+  numbers_advance(pendulum, numerics, theta, velocity);
   for (int i = 0; i < N; i++)
     largest = fmax(largest, hypot(remainder(theta[i] - theta_true[i], 2 * M_PI), velocity[i] - velocity_true[i]));
   return largest;
@@ -80,6 +80,6 @@ TEST(lost_angles_are_not_numbers) {
   const kz_numerics numerics = {.scheme = SPLIT6, .steps_per_period = 24};
   double theta[N], velocity[N];
   put_starts(1e17, theta, velocity);
-  advance(&pendulum, &numerics, theta, velocity);
+  numbers_advance(&pendulum, &numerics, theta, velocity);
   for (int i = 0; i < N; i++) assert_true(isnan(theta[i]));
 }

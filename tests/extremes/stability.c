@@ -10,7 +10,7 @@
 
 #define PI 3.14159265358979323846
 
-static double value(const char *name, double k, double beta, double quality_factor) {
+static double stability_value(const char *name, double k, double beta, double quality_factor) {
   kz_damping damping = {beta, quality_factor};
   for (int i = 0; i < kz_curve_count; i++) {
     double m;
@@ -93,12 +93,12 @@ TEST(angles_to_twelve_digits) {
 TEST(curves_next_to_the_axis) {
   for (double distance = 1e-3; distance > 1e-15; distance *= 0.1) {
     double below = 0.25 - distance, above = 0.25 + distance, tolerance = distance + 1e-12;
-    assert_true(fabs(value("exact_2", below, 0, NAN) / (2 * (0.25 - below)) - 1) < tolerance);
-    assert_true(fabs(value("exact_3", above, 0, NAN) / (2 * (above - 0.25)) - 1) < tolerance);
+    assert_true(fabs(stability_value("exact_2", below, 0, NAN) / (2 * (0.25 - below)) - 1) < tolerance);
+    assert_true(fabs(stability_value("exact_3", above, 0, NAN) / (2 * (above - 0.25)) - 1) < tolerance);
     below = 1 - distance, above = 1 + distance;
-    assert_true(fabs(value("exact_4", below, 0, NAN) / sqrt(12 * (1 - below)) - 1) < tolerance);
-    assert_true(fabs(value("exact_5", above, 0, NAN) / sqrt(12 * (above - 1) / 5) - 1) < 2 * tolerance);
-    assert_true(fabs(value("exact_1", -distance, 0, NAN) / sqrt(2 * distance) - 1) < tolerance);
+    assert_true(fabs(stability_value("exact_4", below, 0, NAN) / sqrt(12 * (1 - below)) - 1) < tolerance);
+    assert_true(fabs(stability_value("exact_5", above, 0, NAN) / sqrt(12 * (above - 1) / 5) - 1) < 2 * tolerance);
+    assert_true(fabs(stability_value("exact_1", -distance, 0, NAN) / sqrt(2 * distance) - 1) < tolerance);
   }
 }
 
@@ -108,7 +108,7 @@ TEST(curves_far_below) {
   const int order[] = {0, 0, 1, 1, 2};
   for (int i = 0; i < 5; i++)
     for (double k = -1e3; k >= -1e6; k *= 10) {
-      double q = 2 * value(names[i], k, 0, NAN), s = 2 * order[i] + 1, h = sqrt(q);
+      double q = 2 * stability_value(names[i], k, 0, NAN), s = 2 * order[i] + 1, h = sqrt(q);
       double a = -2 * q + 2 * s * h - (s * s + 1) / 8 - (s * s * s + 3 * s) / (128 * h) -
                  (5 * pow(s, 4) + 34 * s * s + 9) / (4096 * q);
       assert_true(fabs(a / (4 * k) - 1) < 100 * pow(q, -2));
@@ -119,10 +119,10 @@ TEST(curves_far_below) {
 TEST(damping_at_its_ends) {
   for (double q = 0.5; q <= 1e8; q *= 16)
     for (double k = -1e-12; k >= -1e4; k *= 100) {
-      double lower = value("damped_0", k, 0, q), first = value("damped_1", k, 0, q),
-             second = value("damped_2", k, 0, q);
+      double lower = stability_value("damped_0", k, 0, q), first = stability_value("damped_1", k, 0, q),
+             second = stability_value("damped_2", k, 0, q);
       assert_true(lower > 0 && first >= lower && second > first);
-      assert_true(lower >= value("exact_1", k, 0, q) * (1 - 1e-13));
+      assert_true(lower >= stability_value("exact_1", k, 0, q) * (1 - 1e-13));
     }
   kz_threshold threshold;
   kz_tongue_threshold(1, 1e8, KZ_BY_FLOQUET, &threshold);

@@ -21,7 +21,7 @@ static void put_grid(const double *speed, int class, double *theta, double *velo
   }
 }
 
-static void advance(const kz_pendulum *pendulum, kz_numerics numerics, double *theta, double *velocity) {
+static void step_error_advance(const kz_pendulum *pendulum, kz_numerics numerics, double *theta, double *velocity) {
   static int64_t turns[N];
   kz_flow *flow = kz_flow_create(pendulum, &numerics);
   assert_non_null(flow);
@@ -36,15 +36,15 @@ static double dense_error(const kz_pendulum *pendulum, const kz_numerics *numeri
   double largest = 0;
   put_grid(speed, class, theta, velocity);
   put_grid(speed, class, theta_true, velocity_true);
-  advance(pendulum, *numerics, theta, velocity);
-  advance(pendulum, fine, theta_true, velocity_true);
+  step_error_advance(pendulum, *numerics, theta, velocity);
+  step_error_advance(pendulum, fine, theta_true, velocity_true);
   for (int i = 0; i < N; i++)
     largest = fmax(largest, hypot(remainder(theta[i] - theta_true[i], 2 * PI), velocity[i] - velocity_true[i]));
   return largest;
 }
 
 /* A number in [0, 1), the same in every run. */
-static double drawn(void) {
+static double step_error_drawn(void) {
   static uint64_t state = 12;
   state = state * 6364136223846793005u + 1442695040888963407u;
   return (double)(state >> 11) / 9007199254740992.0;
@@ -56,9 +56,10 @@ TEST(the_stated_error_is_an_upper_estimate) {
   } ways[] = {{0, 100}, {0, 60}, {1, 24}, {1, 12}, {2, 24}}; /* rk4, split6, processed */
   const int n = getenv("KAPITZA_EXTENSIVE") ? MORE : PENDULUMS;
   for (int p = 0; p < n; p++) {
-    const kz_pendulum pendulum = {0.2 * drawn() - 0.02, pow(10, -3 + 2.5 * drawn()), 0.05 + 1.5 * drawn() * drawn()};
+    const kz_pendulum pendulum = {0.2 * step_error_drawn() - 0.02, pow(10, -3 + 2.5 * step_error_drawn()),
+                                  0.05 + 1.5 * step_error_drawn() * step_error_drawn()};
     const kz_numerics numerics = {.scheme = ways[p % 5].scheme, .steps_per_period = ways[p % 5].steps};
-    const double top = pow(10, 1.3 * drawn());
+    const double top = pow(10, 1.3 * step_error_drawn());
     double speed[CLASSES + 1] = {0}, stated[CLASSES];
     for (int c = 1; c <= CLASSES; c++) speed[c] = ldexp(top, c - CLASSES);
     kz_step_errors(&pendulum, &numerics, CLASSES, speed, stated);

@@ -17,7 +17,7 @@ static const kz_curve *curve_named(const char *name) {
   return NULL;
 }
 
-static double value(const char *name, double k, double quality_factor) {
+static double stability_value(const char *name, double k, double quality_factor) {
   kz_damping damping = {0, quality_factor};
   double m;
   kz_curve_values(curve_named(name), &damping, 1, &k, &m);
@@ -40,9 +40,9 @@ TEST(transition_curves_of_butikov_fig_1) {
     reference_span rows = reference_section(whole_file, section), row = {NULL, NULL};
     while ((row = reference_next(rows, row)).first) {
       double k = reference_number(row, "k");
-      CLOSE(value(exact, k, NAN), reference_number(row, "m_exact"), 1e-9);
-      CLOSE(value(formula, k, NAN), reference_number(row, "m_formula"), 1e-9);
-      if (c >= 4) CLOSE(value(refined, k, NAN), reference_number(row, "m_formula2"), 1e-9);
+      CLOSE(stability_value(exact, k, NAN), reference_number(row, "m_exact"), 1e-9);
+      CLOSE(stability_value(formula, k, NAN), reference_number(row, "m_formula"), 1e-9);
+      if (c >= 4) CLOSE(stability_value(refined, k, NAN), reference_number(row, "m_formula2"), 1e-9);
       seen++;
     }
   }
@@ -53,9 +53,9 @@ TEST(curves_turn_back_where_published) {
   reference_span exact = reference_section(whole_file, "butikov_curve3_turning_point_exact");
   CLOSE(kz_mathieu_turn(curve_named("exact_3")->turning), reference_number(exact, "m"), 1e-7);
   double k = reference_number(exact, "k");
-  assert_true(isfinite(value("exact_3", k - 1e-9, NAN)) && isnan(value("exact_3", k + 1e-9, NAN)));
-  CLOSE(value("butikov_3", 0.65, NAN), 1.6, 1e-12);
-  assert_true(isfinite(value("exact_5", 2.0312, NAN)) && isnan(value("exact_5", 2.0314, NAN)));
+  assert_true(isfinite(stability_value("exact_3", k - 1e-9, NAN)) && isnan(stability_value("exact_3", k + 1e-9, NAN)));
+  CLOSE(stability_value("butikov_3", 0.65, NAN), 1.6, 1e-12);
+  assert_true(isfinite(stability_value("exact_5", 2.0312, NAN)) && isnan(stability_value("exact_5", 2.0314, NAN)));
   CLOSE(kz_mathieu_turn(curve_named("exact_5")->turning), 3.829, 1e-3);
 }
 
@@ -79,7 +79,7 @@ TEST(subharmonics_of_butikov_fig_9) {
 /* Numbers of texts on Paul traps: the first zone ends at q = 0.908046; the tip of a mass filter's zone. */
 TEST(zone_of_the_paul_trap) {
   const kz_pendulum sine = {.m = 1};
-  CLOSE(2 * value("exact_2", 0, NAN), 0.908046, 5e-7);
+  CLOSE(2 * stability_value("exact_2", 0, NAN), 0.908046, 5e-7);
   CLOSE(4 * kz_hill_edge(&sine, 2, 0.908046 / 2), 0, 5e-6);
   CLOSE(-4 * kz_hill_edge(&sine, 1, 0.706 / 2), 0.237, 5e-4);
   CLOSE(4 * kz_hill_edge(&sine, 2, 0.706 / 2), 0.237, 5e-4);
@@ -107,15 +107,15 @@ TEST(boundaries_of_blackburn_fig_4) {
       snprintf(section, sizeof section, "blackburn_fig4_Omega%d_Q%s", omega[i], quality[j]);
       reference_span row = reference_section(whole_file, section);
       double k = 1.0 / (omega[i] * omega[i]), q = j == 4 ? NAN : atof(quality[j]);
-      CLOSE(value("damped_0", -k, q), reference_number(row, "eps_lower_exact"), 1e-9);
-      CLOSE(value("damped_1", -k, q), reference_number(row, "eps_upper_exact"), 1e-9);
-      CLOSE(value("damped_1", k, q), reference_number(row, "eps_down_upper_exact"), 1e-9);
-      CLOSE(value("blackburn_lower", -k, q), reference_number(row, "eq5"), 1e-9);
-      CLOSE(value("blackburn_upper", -k, q), reference_number(row, "eq6"), 1e-9);
-      CLOSE(value("blackburn_down_upper", k, q), reference_number(row, "eq6_down"), 1e-9);
+      CLOSE(stability_value("damped_0", -k, q), reference_number(row, "eps_lower_exact"), 1e-9);
+      CLOSE(stability_value("damped_1", -k, q), reference_number(row, "eps_upper_exact"), 1e-9);
+      CLOSE(stability_value("damped_1", k, q), reference_number(row, "eps_down_upper_exact"), 1e-9);
+      CLOSE(stability_value("blackburn_lower", -k, q), reference_number(row, "eq5"), 1e-9);
+      CLOSE(stability_value("blackburn_upper", -k, q), reference_number(row, "eq6"), 1e-9);
+      CLOSE(stability_value("blackburn_down_upper", k, q), reference_number(row, "eq6_down"), 1e-9);
     }
   double k = reference_number_at(strstr(reference_text(), "\"blackburn_delta_at_eps0.5_exact\":") + 34);
-  CLOSE(value("exact_2", k, NAN), 0.5, 1e-9);
+  CLOSE(stability_value("exact_2", k, NAN), 0.5, 1e-9);
 }
 
 TEST(tongues_of_butikov_fig_11) {
@@ -127,8 +127,9 @@ TEST(tongues_of_butikov_fig_11) {
     while ((row = reference_next(rows, row)).first) {
       const char *second = strchr(row.first, ',') + 1, *third = strchr(second, ',') + 1;
       double k = reference_number_at(row.first);
-      CLOSE(value(tongue == 1 ? "damped_1" : "damped_2", k, 5), reference_number_at(second), 1e-9);
-      CLOSE(value(tongue == 1 ? "butikov_damped_1" : "butikov_damped_2", k, 5), reference_number_at(third), 1e-9);
+      CLOSE(stability_value(tongue == 1 ? "damped_1" : "damped_2", k, 5), reference_number_at(second), 1e-9);
+      CLOSE(stability_value(tongue == 1 ? "butikov_damped_1" : "butikov_damped_2", k, 5), reference_number_at(third),
+            1e-9);
       seen++;
     }
     assert_int_equal(seen, 10);

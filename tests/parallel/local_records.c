@@ -17,7 +17,7 @@ static size_t length_of(int64_t tile) {
   return 8 + (size_t)(tile * tile * 17 % 3000);
 }
 
-static kz_status fill(void *context, int64_t tile, void *record) {
+static kz_status local_records_fill(void *context, int64_t tile, void *record) {
   job *j = context;
   if (tile == j->failing) return kz_fail(KZ_FAILED, "tile %lld fails", (long long)tile);
   const uint64_t bytes = length_of(tile);
@@ -28,11 +28,11 @@ static kz_status fill(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-static kz_status run(job *j, kz_local_records *records) {
+static kz_status local_records_run(job *j, kz_local_records *records) {
   const kz_stage stage = {.name = "records",
                           .n_tiles = N_TILES,
                           .record_bytes = MOST,
-                          .work = fill,
+                          .work = local_records_fill,
                           .context = j,
                           .keep = true,
                           .local = records};
@@ -45,7 +45,7 @@ static size_t padding_of(int64_t tile) {
 }
 
 /* A message: the tile, and the last byte of its record; padding. */
-static kz_status make(void *context, const kz_local_record *piece, void *message, size_t *bytes) {
+static kz_status local_records_make(void *context, const kz_local_record *piece, void *message, size_t *bytes) {
   const job *j = context;
   if (piece->tile == j->failing) return kz_fail(KZ_FAILED, "tile %lld fails", (long long)piece->tile);
   const int64_t facts[] = {piece->tile, (int64_t)piece->bytes, ((const unsigned char *)piece->data)[piece->bytes - 1]};
@@ -55,7 +55,7 @@ static kz_status make(void *context, const kz_local_record *piece, void *message
   return KZ_OK;
 }
 
-static kz_status take(void *context, const void *message, size_t bytes) {
+static kz_status local_records_take(void *context, const void *message, size_t bytes) {
   job *j = context;
   int64_t facts[3];
   const unsigned char *padding = (const unsigned char *)message + sizeof facts;
@@ -69,8 +69,9 @@ static kz_status take(void *context, const void *message, size_t bytes) {
   return KZ_OK;
 }
 
-static kz_status deliver(job *j, const kz_local_records *records) {
-  const kz_delivery delivery = {.name = "mail", .message_bytes = MOST + 64, .make = make, .take = take, .context = j};
+static kz_status local_records_deliver(job *j, const kz_local_records *records) {
+  const kz_delivery delivery = {
+      .name = "mail", .message_bytes = MOST + 64, .make = local_records_make, .take = local_records_take, .context = j};
   return kz_local_records_deliver(&(kz_run){.ranks = ranks}, records, &delivery);
 }
 
@@ -85,7 +86,7 @@ static void open_records(bool resume) {
   assert_all(open_checkpoint(&plan) == KZ_OK);
 }
 
-static int64_t sum(int64_t mine) {
+static int64_t local_records_sum(int64_t mine) {
   assert_all(kz_ranks_sum(ranks, &mine, 1) == KZ_OK);
   return mine;
 }
@@ -93,23 +94,23 @@ static int64_t sum(int64_t mine) {
 TEST(each_piece_comes_once) {
   job j = {.failing = -1};
   kz_local_records records = {0};
-  assert_all(run(&j, &records) == KZ_OK && sum(records.n) == N_TILES);
-  assert_all(deliver(&j, &records) == KZ_OK && has_all(&j));
+  assert_all(local_records_run(&j, &records) == KZ_OK && local_records_sum(records.n) == N_TILES);
+  assert_all(local_records_deliver(&j, &records) == KZ_OK && has_all(&j));
   kz_local_records_free(&records);
 }
 
 TEST(a_failure_on_the_way_reaches_all) {
   job j = {.failing = -1};
   kz_local_records records = {0};
-  assert_all(run(&j, &records) == KZ_OK);
+  assert_all(local_records_run(&j, &records) == KZ_OK);
   j.failing = N_TILES / 2;
-  assert_all(deliver(&j, &records) == KZ_FAILED);
+  assert_all(local_records_deliver(&j, &records) == KZ_FAILED);
   j = (job){.failing = -1};
-  assert_all(deliver(&j, &records) == KZ_OK && has_all(&j));
+  assert_all(local_records_deliver(&j, &records) == KZ_OK && has_all(&j));
   kz_local_records_free(&records);
 }
 
-static void spoil(int64_t tile) {
+static void local_records_spoil(int64_t tile) {
   const int file = open(path, O_WRONLY);
   const off_t slot = 2 * PAGE + tile * (off_t)(MOST + PAGE); /* header, head of the section */
   assert_all(kz_rank(ranks) != 0 || pwrite(file, "\xa5", 1, slot + 30) == 1);
@@ -120,17 +121,18 @@ TEST(finished_records_are_found_again) {
   job j = {.failing = 45};
   kz_local_records records = {0};
   open_records(false);
-  assert_all(run(&j, &records) == KZ_FAILED);
+  assert_all(local_records_run(&j, &records) == KZ_FAILED);
   assert_all(close_checkpoint(false) == KZ_OK);
   kz_local_records_free(&records);
-  const int64_t done = sum(j.done);
-  spoil(7);
+  const int64_t done = local_records_sum(j.done);
+  local_records_spoil(7);
   struct stat facts;
   assert_all(stat(path, &facts) == 0 && facts.st_blocks * 512 < (N_TILES + 4) * 2 * PAGE && facts.st_size > 10 * MOST);
   open_records(true);
   j = (job){.failing = -1};
-  assert_all(run(&j, &records) == KZ_OK && sum(j.done) == N_TILES - done + 1 && sum(records.n) == N_TILES);
-  assert_all(deliver(&j, &records) == KZ_OK && has_all(&j));
+  assert_all(local_records_run(&j, &records) == KZ_OK && local_records_sum(j.done) == N_TILES - done + 1 &&
+             local_records_sum(records.n) == N_TILES);
+  assert_all(local_records_deliver(&j, &records) == KZ_OK && has_all(&j));
   assert_all(close_checkpoint(true) == KZ_OK);
   kz_local_records_free(&records);
 }

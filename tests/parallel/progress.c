@@ -23,7 +23,7 @@ int clock_gettime(clockid_t clock, struct timespec *now) {
   return 0;
 }
 
-static kz_status fill(void *context, int64_t tile, void *bytes) {
+static kz_status progress_fill(void *context, int64_t tile, void *bytes) {
   (void)context;
   (void)bytes;
   (void)tile;
@@ -32,7 +32,7 @@ static kz_status fill(void *context, int64_t tile, void *bytes) {
 }
 
 static kz_status run_cells(int64_t n_tiles) {
-  const kz_stage stage = {.name = "cells", .n_tiles = n_tiles, .record_bytes = 1, .work = fill};
+  const kz_stage stage = {.name = "cells", .n_tiles = n_tiles, .record_bytes = 1, .work = progress_fill};
   char records[100];
   return run_stage(&stage, records);
 }
@@ -51,7 +51,7 @@ static kz_status run_chain(int64_t n_stages) {
 }
 
 /* Runs stages with stderr at `end`; what came out is read from `file` into shown. */
-static void show(kz_progress progress, kz_status (*run)(int64_t), int64_t n, int end, int file) {
+static void progress_show(kz_progress progress, kz_status (*run)(int64_t), int64_t n, int end, int file) {
   const int before = dup(STDERR_FILENO);
   dup2(end, STDERR_FILENO);
   kz_ranks_set_progress(ranks, progress);
@@ -72,7 +72,7 @@ static void show(kz_progress progress, kz_status (*run)(int64_t), int64_t n, int
 static void show_in_pipe(kz_progress progress, kz_status (*run)(int64_t), int64_t n) {
   int ends[2];
   assert_int_equal(pipe(ends), 0);
-  show(progress, run, n, ends[1], ends[0]);
+  progress_show(progress, run, n, ends[1], ends[0]);
   close(ends[0]);
   close(ends[1]);
 }
@@ -80,7 +80,7 @@ static void show_in_pipe(kz_progress progress, kz_status (*run)(int64_t), int64_
 /* Skips the test on a machine without pseudo-terminals: a bare chroot has none. */
 static void show_on_terminal(kz_progress progress, int64_t n_tiles) {
   if (here < 0) skip();
-  show(progress, run_cells, n_tiles, there, here);
+  progress_show(progress, run_cells, n_tiles, there, here);
 }
 
 TEST(a_terminal_gets_a_bar) {
@@ -130,7 +130,7 @@ TEST(a_terminal_of_others_is_left_alone) {
   assert_int_equal(setpgid(other, other) | tcgetattr(there, &settings), 0);
   settings.c_lflag |= TOSTOP;
   assert_int_equal(tcsetattr(there, TCSANOW, &settings) | tcsetpgrp(there, other), 0);
-  show(KZ_PROGRESS_AUTO, run_cells, 60, there, here);
+  progress_show(KZ_PROGRESS_AUTO, run_cells, 60, there, here);
   kill(other, SIGKILL);
   waitpid(other, NULL, 0);
   assert_int_equal(tcsetpgrp(there, getpgrp()), 0); /* allowed in the background, since SIGTTOU is ignored */

@@ -7,7 +7,7 @@ enum { RANKS = 4 };
 static const double FAST = 1e-4, SLOW = 1e-3; /* s a tile */
 
 /* Four ranks, the last one ten times slower, with `left` tiles to give away. */
-static kz_schedule begin(int64_t left) {
+static kz_schedule schedule_begin(int64_t left) {
   kz_schedule schedule;
   kz_schedule_begin(&schedule, RANKS + left, RANKS);
   for (int rank = 0; rank < RANKS; ++rank) kz_schedule_note(&schedule, rank, rank == RANKS - 1 ? SLOW : FAST);
@@ -15,7 +15,7 @@ static kz_schedule begin(int64_t left) {
 }
 
 TEST(every_tile_is_given_once_in_shrinking_batches) {
-  kz_schedule schedule = begin(2000);
+  kz_schedule schedule = schedule_begin(2000);
   int64_t next = RANKS, before = INT64_MAX, n, first, batches = 0;
   while ((n = kz_schedule_grant(&schedule, 1, false, &first)) > 0) {
     assert_true(first == next && n <= before);
@@ -27,7 +27,7 @@ TEST(every_tile_is_given_once_in_shrinking_batches) {
 }
 
 TEST(a_slow_rank_gets_a_tenth) {
-  kz_schedule schedule = begin(2000);
+  kz_schedule schedule = schedule_begin(2000);
   int64_t first;
   const int64_t fast = kz_schedule_grant(&schedule, 0, false, &first),
                 slow = kz_schedule_grant(&schedule, 3, false, &first);
@@ -36,7 +36,7 @@ TEST(a_slow_rank_gets_a_tenth) {
 }
 
 TEST(a_batch_lasts_a_tenth_of_a_second) {
-  kz_schedule schedule = begin(1000000000);
+  kz_schedule schedule = schedule_begin(1000000000);
   int64_t first;
   assert_int_equal(kz_schedule_grant(&schedule, 0, false, &first), 1000);
   assert_int_equal(kz_schedule_grant(&schedule, 3, true, &first), 100);
@@ -44,7 +44,7 @@ TEST(a_batch_lasts_a_tenth_of_a_second) {
 }
 
 TEST(who_still_works_leaves_the_last_tiles_to_others) {
-  kz_schedule schedule = begin(30); /* 1 ms of all ranks, a tile of the slow one */
+  kz_schedule schedule = schedule_begin(30); /* 1 ms of all ranks, a tile of the slow one */
   int64_t first;
   assert_int_equal(kz_schedule_grant(&schedule, 3, true, &first), 0);
   assert_true(kz_schedule_grant(&schedule, 0, true, &first) > 0);
@@ -54,7 +54,7 @@ TEST(who_still_works_leaves_the_last_tiles_to_others) {
 /* Three fast ranks do what is left in less time than the slow one needs for a tile: it gets no more. The others go on
  * to the end, also one that is slower than those that have left. */
 TEST(a_slow_rank_does_not_keep_all_waiting) {
-  kz_schedule schedule = begin(30);
+  kz_schedule schedule = schedule_begin(30);
   int64_t first, given = 0, n;
   assert_int_equal(kz_schedule_grant(&schedule, 3, false, &first), 1);
   assert_true(kz_schedule_grant(&schedule, 0, false, &first) > 3);

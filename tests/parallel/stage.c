@@ -17,7 +17,7 @@ typedef struct {
   int dirty;       /* records that were not zero at the start */
 } job;
 
-static kz_status fill(void *context, int64_t tile, void *bytes) {
+static kz_status stage_fill(void *context, int64_t tile, void *bytes) {
   job *j = context;
   record *r = bytes;
   for (size_t i = 0; i < sizeof *r; ++i) j->dirty += ((char *)bytes)[i] != 0;
@@ -40,7 +40,7 @@ static kz_stage stage_of(job *j, int64_t n_tiles, bool everywhere) {
   return (kz_stage){.name = "test",
                     .n_tiles = n_tiles,
                     .record_bytes = sizeof(record),
-                    .work = fill,
+                    .work = stage_fill,
                     .context = j,
                     .everywhere = everywhere};
 }
@@ -131,7 +131,7 @@ typedef struct {
   int file;
 } tally;
 
-static int64_t count(const tally *t) {
+static int64_t stage_count(const tally *t) {
   return lseek(t->file, 0, SEEK_END);
 }
 
@@ -140,8 +140,9 @@ static kz_status wait_for_others(void *context, int64_t tile, void *bytes) {
   const tally *t = context;
   const double begun = kz_clock();
   memset(bytes, 1, 1);
-  while (tile == 0 && count(t) < N_TILES - 1 && kz_clock() - begun < 1000) pause_for(0.001);
-  if (tile == 0 && count(t) < N_TILES - 1) return kz_fail(KZ_FAILED, "%lld tiles are done", (long long)count(t));
+  while (tile == 0 && stage_count(t) < N_TILES - 1 && kz_clock() - begun < 1000) pause_for(0.001);
+  if (tile == 0 && stage_count(t) < N_TILES - 1)
+    return kz_fail(KZ_FAILED, "%lld tiles are done", (long long)stage_count(t));
   pause_for(0.001);
   return write(t->file, "x", 1) == 1 ? KZ_OK : kz_fail(KZ_FAILED, "no tally");
 }
@@ -158,7 +159,7 @@ TEST(rank_0_answers_amid_its_own_tile) {
   char records[N_TILES];
   const kz_status status = run_stage(&stage, records);
   assert_all(kz_rank(ranks) != 0 || unlink(t.path) == 0);
-  assert_all(status == KZ_OK && count(&t) == N_TILES);
+  assert_all(status == KZ_OK && stage_count(&t) == N_TILES);
   close(t.file);
 }
 

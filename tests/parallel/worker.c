@@ -22,7 +22,7 @@ typedef struct {
   int log;
 } job;
 
-static kz_status fill(void *context, int64_t tile, void *bytes) {
+static kz_status worker_fill(void *context, int64_t tile, void *bytes) {
   const job *j = context;
   uint64_t *number = bytes, value = j->seed + (uint64_t)tile;
   if (write(j->log, ".", 1) != 1) return kz_fail(KZ_FAILED, "the log cannot be written");
@@ -36,8 +36,12 @@ static kz_status fill(void *context, int64_t tile, void *bytes) {
 
 static kz_status run_stages(const kz_run *run, int log) {
   job j = {.seed = 1, .log = log};
-  kz_stage stage = {
-      .name = "table", .n_tiles = N_TILES, .record_bytes = sizeof(record), .work = fill, .context = &j, .keep = true};
+  kz_stage stage = {.name = "table",
+                    .n_tiles = N_TILES,
+                    .record_bytes = sizeof(record),
+                    .work = worker_fill,
+                    .context = &j,
+                    .keep = true};
   stage.everywhere = true;
   KZ_TRY(kz_stage_run(run, &stage, table));
   j = (job){.seed = 2, .below = (const record *)table, .log = log};
@@ -46,7 +50,7 @@ static kz_status run_stages(const kz_run *run, int log) {
   return kz_stage_run(run, &stage, cells);
 }
 
-static kz_status save(const char *path) {
+static kz_status worker_save(const char *path) {
   char part[4096];
   snprintf(part, sizeof part, "%s.part", path);
   FILE *file = fopen(part, "wb");
@@ -57,12 +61,12 @@ static kz_status save(const char *path) {
 }
 
 /* Ranks of the earlier run may have finished the result while this one waited: ask after opening. */
-static kz_status work(const kz_run *run, const char *path, bool resume, int log) {
+static kz_status worker_work(const kz_run *run, const char *path, bool resume, int log) {
   bool done = resume && access(path, F_OK) == 0;
   KZ_TRY(kz_ranks_broadcast(run->ranks, &done, sizeof done));
   if (done) return KZ_OK;
   KZ_TRY(run_stages(run, log));
-  return kz_ranks_agree(run->ranks, kz_rank(run->ranks) == 0 ? save(path) : KZ_OK);
+  return kz_ranks_agree(run->ranks, kz_rank(run->ranks) == 0 ? worker_save(path) : KZ_OK);
 }
 
 static kz_status run_worker(kz_ranks *ranks, const char *path, bool resume) {
@@ -74,7 +78,7 @@ static kz_status run_worker(kz_ranks *ranks, const char *path, bool resume) {
   const kz_checkpoint_plan plan = {.path = name, .fingerprint = "program: worker\n", .resume = resume};
   kz_run run = {.ranks = ranks};
   KZ_TRY(kz_checkpoint_open(ranks, &plan, &run.checkpoint));
-  kz_status status = work(&run, path, resume, log);
+  kz_status status = worker_work(&run, path, resume, log);
   if (status == KZ_STOPPED) status = kz_checkpoint_stopped(run.checkpoint);
   const kz_status closed = kz_checkpoint_close(ranks, run.checkpoint, status == KZ_OK);
   return status == KZ_OK ? closed : status;

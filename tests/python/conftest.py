@@ -49,7 +49,8 @@ def pytest_configure(config):
 
 
 def with_extensive(common, more):
-    """Parameters of a test: the common ones, and those of `more` that wait for KAPITZA_EXTENSIVE=1; a tuple has several values."""
+    """Parameters of a test: the common ones, and those of `more` that wait for KAPITZA_EXTENSIVE=1; a tuple has several
+    values."""
     rare = [row if isinstance(row, tuple) else (row,) for row in more if row not in common]
     return [*common, *(pytest.param(*row, marks=pytest.mark.extensive) for row in rare)]
 
@@ -151,7 +152,8 @@ def user_python(tmp_path_factory):
     own = {"PATH": os.environ["PATH"], "HOME": str(home)}
     found = subprocess.run([python, "-c", "import kapitza"], env=own, cwd=home, capture_output=True, text=True)
     assert found.returncode == 0, f"scripts/setup makes the package importable in .venv: {found.stderr}"
-    return lambda *words, **more: subprocess.run([python, *map(str, words)], env=own, capture_output=True, text=True, **more)
+    return lambda *words, **more: subprocess.run([python, *map(str, words)], env=own, capture_output=True, text=True,
+                                                 **more)
 
 
 @pytest.fixture(scope="session")
@@ -178,8 +180,10 @@ def kapitza():
 
 
 def launched(ranks, library=None, **settings):
-    """What begins a command on so many ranks (None: without mpirun), with a library of tests/tools before all others and its settings."""
-    exports = [f"LD_PRELOAD={PROGRAM.parent}/tests/{library}.so", *(f"KZ_{name}={value}" for name, value in settings.items())]
+    """What begins a command on so many ranks (None: without mpirun), with a library of tests/tools before all others
+    and its settings."""
+    exports = [f"LD_PRELOAD={PROGRAM.parent}/tests/{library}.so",
+               *(f"KZ_{name}={value}" for name, value in settings.items())]
     return [*(["mpirun", "-n", str(ranks)] if ranks else []), *(["env", *exports] if library else [])]
 
 
@@ -194,7 +198,8 @@ def wait_for(condition, seconds=1000):
 
 
 def saved_bytes(checkpoint):
-    """Bytes of finished records, nearly: those that are not 0 (room is allocated beforehand); 0 before the first record."""
+    """Bytes of finished records, nearly: those that are not 0 (room is allocated beforehand); 0 before the first
+    record."""
     data = checkpoint.read_bytes() if checkpoint.exists() else b""
     marked = data[32:40] != bytes(8)  # the last word of the head
     return len(data) - data.count(0) if marked else 0
@@ -202,7 +207,8 @@ def saved_bytes(checkpoint):
 
 def put_scene(path, scene):
     """Writes a scene: a mapping, YAML, or the path of one."""
-    path.write_text(scene.read_text() if isinstance(scene, Path) else scene if isinstance(scene, str) else json.dumps(scene))
+    path.write_text(scene.read_text() if isinstance(scene, Path) else scene if isinstance(scene, str)
+                    else json.dumps(scene))
 
 
 def settings(*texts):
@@ -235,16 +241,19 @@ def stopped_and_resumed(kapitza, folder, scene, ranks, *options):
 
 
 def run_until_saved(kapitza, *words, file, folder, ranks=2):
-    """kapitza run WORDS, asked to stop as soon as a record of FILE's work is saved (tests/tools/stop_at.c); what it says to that."""
+    """kapitza run WORDS, asked to stop as soon as a record of FILE's work is saved (tests/tools/stop_at.c); what it
+    says to that."""
     resumed = int((folder / f"{file}.checkpoint").exists())  # whose section may have begun already
-    done = kapitza("run", *words, folder=folder, status=75, launcher=launched(ranks, "stop_at", WRITES=3, RESUMED=resumed))
-    assert f"stopped by SIGUSR1; finished work is in {file}.checkpoint; --resume goes on from it" in done.stderr, done.stderr
+    done = kapitza("run", *words, folder=folder, status=75,
+                   launcher=launched(ranks, "stop_at", WRITES=3, RESUMED=resumed))
+    said = f"stopped by SIGUSR1; finished work is in {file}.checkpoint; --resume goes on from it"
+    assert said in done.stderr, done.stderr
     return done.stderr
 
 
 def stopped_in_each_stage(kapitza, *words, file, folder, ranks, writes=(1,)):
-    """kapitza run WORDS, resumed until it is done, on `ranks` in turn; each time it is stopped in the first stage that is new: before its
-    first tile (0 writes), or in the middle of its first record (1). The names of these stages."""
+    """kapitza run WORDS, resumed until it is done, on `ranks` in turn; each time it is stopped in the first stage that
+    is new: before its first tile (0 writes), or in the middle of its first record (1). The names of these stages."""
     found = []
     for start in itertools.count():
         launcher = launched(ranks[start % len(ranks)], "stop_at", WRITES=writes[start % len(writes)])
@@ -280,7 +289,8 @@ def datasets(path):
     def visit(name, item):
         if isinstance(item, h5py.Dataset):
             text = h5py.check_string_dtype(item.dtype)
-            contents[name] = "\n".join(item.asstr()[:].ravel()) if text else (str(item.dtype), item.shape, item[()].tobytes())
+            contents[name] = "\n".join(item.asstr()[:].ravel()) if text else (str(item.dtype), item.shape,
+                                                                              item[()].tobytes())
 
     with h5py.File(path) as file:
         file.visititems(visit)
@@ -288,7 +298,8 @@ def datasets(path):
 
 
 def flown(field, time, start, tolerance):
-    """The state after `time` of u' = field(t, u), by an integrator that shares nothing with the program: scipy's DOP853."""
+    """The state after `time` of u' = field(t, u), by an integrator that shares nothing with the program: scipy's
+    DOP853."""
     from scipy.integrate import solve_ivp  # which takes a second to load, and few workers need
     return solve_ivp(field, (0, time), start, method="DOP853", rtol=tolerance, atol=0.1 * tolerance).y[:, -1]
 

@@ -13,10 +13,12 @@ CORNERED = [(j, 4 / (math.pi * j) * (-1) ** (j // 2)) for j in (1, 3, 5, 7)]
 # Keys -> (a - k, b, torque) of theta'' + beta theta' + a sin theta - b cos theta = torque.
 RIGS = {
     "sine": ({}, lambda t: (-M * math.cos(t), 0, 0)),
-    "harmonics": ({"harmonics": [{"order": 2, "amplitude": 1 / 3, "phase": math.pi / 6}, {"order": 1, "amplitude": 0.2}]},
+    "harmonics": ({"harmonics": [{"order": 2, "amplitude": 1 / 3, "phase": math.pi / 6},
+                                 {"order": 1, "amplitude": 0.2}]},
                   lambda t: (-1.2 * M * math.cos(t) - M / 3 * math.cos(2 * t + math.pi / 6), 0, 0)),
     "square": ({"waveform": "square"}, lambda t: (-M * sum(share * math.cos(j * t) for j, share in CORNERED), 0, 0)),
-    "tilted": ({"tilt": math.pi / 36}, lambda t: (-M * math.cos(math.pi / 36) * math.cos(t), M * math.sin(math.pi / 36) * math.cos(t), 0)),
+    "tilted": ({"tilt": math.pi / 36}, lambda t: (-M * math.cos(math.pi / 36) * math.cos(t),
+                                                  M * math.sin(math.pi / 36) * math.cos(t), 0)),
     "ellipse": ({"ellipse": 0.2}, lambda t: (-M * math.cos(t), 0.2 * M * math.sin(t), 0)),
     "torque": ({"torque": 0.004}, lambda t: (-M * math.cos(t), 0, 0.004)),
 }

@@ -21,7 +21,8 @@ class Server:
     def __init__(self, source, *options, fake=False, environment=None):
         own = [sys.executable, "-m", "kapitza.explorer", "--program", FAKE]
         command = [*(own if fake else [PROGRAM, "view"]), source, "--no-browser", *options]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                        env=environment)
         self.title, self.url, self.hint, self.forward = (self.process.stdout.readline().strip() for _ in range(4))
         self.base, _, once = self.url.partition("/?once=")
         self.token = self.request("token", {"once": once}, X_Kapitza_Token=None)[1]["token"]
@@ -37,8 +38,10 @@ class Server:
 
     def post(self, name, body, **headers):
         data = body if isinstance(body, bytes) else json.dumps(body).encode()
-        sent = {"X-Kapitza-Token": getattr(self, "token", None)} | {key.replace("_", "-"): value for key, value in headers.items()}
-        asked = urllib.request.Request(f"{self.base}/{name}", data, {key: value for key, value in sent.items() if value is not None})
+        sent = {"X-Kapitza-Token": getattr(self, "token", None)} | {key.replace("_", "-"): value for key,
+                                                                    value in headers.items()}
+        asked = urllib.request.Request(f"{self.base}/{name}", data,
+                                       {key: value for key, value in sent.items() if value is not None})
         return urllib.request.urlopen(asked)
 
     def request(self, name, body, **headers):
@@ -68,7 +71,8 @@ class Server:
         """Its exit status and what it said, after SIGTERM."""
         self.process.terminate()
         output, errors = self.process.communicate()
-        return self.process.returncode, errors + "".join(line for line in output.splitlines() if "for another browser" not in line)
+        return self.process.returncode, errors + "".join(line for line in output.splitlines()
+                                                         if "for another browser" not in line)
 
 
 def children_of(process):
@@ -86,7 +90,8 @@ def parent_of(path):
 
 @contextmanager
 def browser(folder, size):
-    """Chromium without a window, of size "width,height", that saves into `folder`; skips the test by name where there is none."""
+    """Chromium without a window, of size "width,height", that saves into `folder`; skips the test by name where there
+    is none."""
     webdriver = pytest.importorskip("selenium.webdriver", reason="no selenium: the explorer is not tested in a browser")
     chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
     if not chromium or not driver:
@@ -119,7 +124,8 @@ class Page:
 
     def module(self, name, text):
         """The value of an expression of what a module of the page exports, as `its`."""
-        script = f"const done = arguments[0]; import('/{name}').then((its) => done({text})).catch((error) => done(String(error)))"
+        script = (f"const done = arguments[0]; import('/{name}').then((its) => done({text})).catch((error) => "
+                  "done(String(error)))")
         return self.driver.execute_async_script(script)
 
     def wait(self, state="done"):
@@ -143,9 +149,11 @@ class Page:
 
     def fits(self, width, height):
         """Whether a window of this size cuts nothing off, and the controls end above the line at the bottom."""
-        controls, line = "$('sliders').closest('aside').getBoundingClientRect()", "document.querySelector('footer').getBoundingClientRect()"
+        controls, line = ("$('sliders').closest('aside').getBoundingClientRect()",
+                          "document.querySelector('footer').getBoundingClientRect()")
         sliders = "$('sliders').getBoundingClientRect()"
-        hidden = f"getComputedStyle($('sliders').closest('aside')).overflowY === 'auto' || {sliders}.bottom <= {line}.top + 1"
+        hidden = (f"getComputedStyle($('sliders').closest('aside')).overflowY === 'auto' || {sliders}.bottom <= "
+                  f"{line}.top + 1")
         test = f"{controls}.bottom <= {line}.top + 1 && ({hidden}) && document.scrollingElement.scrollWidth <= {width}"
         with self.screen(width, height):
             return wait_for(lambda: self.run(test))  # the picture takes its new size a moment later
@@ -154,13 +162,16 @@ class Page:
         self.run("$(arguments[0]).click()", name)
 
     def choose(self, name, value):
-        self.run("($(arguments[0]).value = arguments[1], $(arguments[0]).dispatchEvent(new Event('change')))", name, value)
+        self.run("($(arguments[0]).value = arguments[1], $(arguments[0]).dispatchEvent(new Event('change')))", name,
+                 value)
 
     def slide(self, name, place):
-        self.run("($(arguments[0]).value = arguments[1], $(arguments[0]).dispatchEvent(new Event('input')))", f"slider-{name}", place)
+        self.run("($(arguments[0]).value = arguments[1], $(arguments[0]).dispatchEvent(new Event('input')))",
+                 f"slider-{name}", place)
 
     def key(self, name):
-        self.run("document.body.dispatchEvent(new KeyboardEvent('keydown', {key: arguments[0], bubbles: true, cancelable: true}))", name)
+        self.run("document.body.dispatchEvent(new KeyboardEvent('keydown', {key: arguments[0], bubbles: true, "
+                 "cancelable: true}))", name)
 
     def shares(self):
         """Name and share of every line of the legend that is seen; mirror images may share a name."""
@@ -178,7 +189,8 @@ class Page:
         self.run("""((x, y, steps) => { const pane = explorer.basins.panes[0], box = pane.over.getBoundingClientRect();
             const [left, top] = pane.plane.placeOf(x, y);
             const at = {clientX: box.left + left, clientY: box.top + top, bubbles: true, cancelable: true};
-            for (const deltaY of steps) pane.over.dispatchEvent(new WheelEvent("wheel", {deltaY, ...at})); })(...arguments)""",
+            for (const deltaY of steps) pane.over.dispatchEvent(new WheelEvent("wheel", {deltaY, ...at}));
+              })(...arguments)""",
                  x, y, list(steps))
 
     def hand(self, x, y, to_x, to_y):
@@ -187,7 +199,8 @@ class Page:
         pane = self.driver.find_element("css selector", "#panes .over")
         def offset(across, up):
             left, top, wide, high = self.run("[...explorer.basins.panes[0].plane.placeOf(arguments[0], arguments[1]), "
-                                             "explorer.basins.panes[0].over.clientWidth, explorer.basins.panes[0].over.clientHeight]",
+                                             "explorer.basins.panes[0].over.clientWidth, "
+                                             "explorer.basins.panes[0].over.clientHeight]",
                                              across, up)
             return round(left - wide / 2), round(top - high / 2)
         chain = ActionChains(self.driver, duration=0).move_to_element_with_offset(pane, *offset(x, y)).click_and_hold()
@@ -198,9 +211,12 @@ class Page:
 
     def pixels(self):
         """The basins as drawn: rows of [r, g, b, a] of every 7th pixel."""
-        return self.run("""(() => { const pane = explorer.basins.panes[0]; pane.drawNow(); const copy = document.createElement("canvas");
-            Object.assign(copy, {width: pane.basins.width, height: pane.basins.height}); const context = copy.getContext("2d");
-            context.drawImage(pane.basins, 0, 0); const data = context.getImageData(0, 0, copy.width, copy.height).data, found = [];
+        return self.run("""(() => { const pane = explorer.basins.panes[0]; pane.drawNow();
+            const copy = document.createElement("canvas");
+            Object.assign(copy, {width: pane.basins.width, height: pane.basins.height});
+              const context = copy.getContext("2d");
+            context.drawImage(pane.basins, 0, 0); const data = context.getImageData(0, 0, copy.width,
+              copy.height).data, found = [];
             for (let i = 0; i < data.length; i += 28) found.push([...data.slice(i, i + 4)]); return found; })()""")
 
     def saved(self, button, path):
@@ -220,7 +236,8 @@ class Page:
         assert len(others) == 2 and "inverted" in others[1].text and not last.get_attribute("disabled")
         before, words = self.run("[$('pendulum').toDataURL(), $('words').textContent]")
         last.click()
-        assert wait_for(lambda: self.run("$('pendulum').toDataURL()") != before) and self.run("$('words').textContent") != words
+        assert wait_for(lambda: self.run("$('pendulum').toDataURL()")
+                        != before) and self.run("$('words').textContent") != words
         self.driver.close()
         self.driver.switch_to.window(first)
 
@@ -255,7 +272,8 @@ def modules(driver, striped):
 
 @pytest.fixture
 def webgl():
-    """The page of a test that asks for this draws as others see it; those of other tests need a third of the processor time to draw."""
+    """The page of a test that asks for this draws as others see it; those of other tests need a third of the processor
+    time to draw."""
 
 
 @pytest.fixture
@@ -263,7 +281,8 @@ def page(driver, striped, request):
     """A fresh page of stripes, one cell a pixel."""
     plain = "" if "webgl" in request.fixturenames else "&painter=2d&shade=none"
     driver.get("about:blank")
-    fresh = Page(driver, striped.address() + f"#level=measure&samples=1&quality=moving&middle=hanging&map=off&drawn=on{plain}")
+    fresh = Page(driver,
+                 striped.address() + f"#level=measure&samples=1&quality=moving&middle=hanging&map=off&drawn=on{plain}")
     fresh.wait()
     yield fresh
     driver.get("about:blank")  # it asks no more when its server ends

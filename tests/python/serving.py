@@ -7,8 +7,8 @@ import numpy as np
 from conftest import PROGRAM
 
 OFFSET = {1: 0, 2: 1, 4: 1, 8: 5}
-TYPES = {"labels": np.uint8, "settling_time": np.dtype("<f4"), "smooth_time": np.dtype("<f4"), "doubt": np.uint8, "other": np.uint8,
-         "turns": np.dtype("<f4")}
+TYPES = {"labels": np.uint8, "settling_time": np.dtype("<f4"), "smooth_time": np.dtype("<f4"), "doubt": np.uint8,
+         "other": np.uint8, "turns": np.dtype("<f4")}
 
 
 class Server:

@@ -10,7 +10,7 @@
 #include "kapitza/dynamics_labels.h"
 #include "part.h"
 
-static inline const kz_numerics *numerics(void) {
+static inline const kz_numerics *fine_numerics(void) {
   static kz_numerics numerics = {.steps_per_period = 16};
   numerics.scheme = kz_scheme_find("split6");
   return &numerics;
@@ -62,8 +62,8 @@ static inline kz_dynamics *explored_with(const kz_numerics *numerics, double m, 
   return explored_pendulum(&pendulum, numerics, seed, cells, max_velocity);
 }
 
-static inline kz_dynamics *explored(double m, int64_t seed, double max_velocity) {
-  return explored_with(numerics(), m, seed, 0, max_velocity);
+static inline kz_dynamics *explored_dynamics(double m, int64_t seed, double max_velocity) {
+  return explored_with(fine_numerics(), m, seed, 0, max_velocity);
 }
 
 /* Regions of a fine grid, and a map table. */

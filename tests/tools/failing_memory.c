@@ -26,7 +26,7 @@ static struct {
 } plan;
 static long long counted;
 
-static long long number(const char *name, long long fallback) {
+static long long failing_memory_number(const char *name, long long fallback) {
   const char *text = getenv(name);
   return text ? atoll(text) : fallback;
 }
@@ -37,13 +37,13 @@ static void read_plan(void) {
   plan.callers = getenv("KZ_FAIL_CALLERS");
   plan.here = (plan.callers || strcmp(program_invocation_short_name, "kapitza") == 0) &&
               (!rank || strcmp(rank, own ? own : "0") == 0);
-  plan.first = number("KZ_FAIL_FIRST", INT64_MAX);
-  plan.count = number("KZ_FAIL_COUNT", 1);
-  plan.bytes = (size_t)number("KZ_FAIL_BYTES", 0);
+  plan.first = failing_memory_number("KZ_FAIL_FIRST", INT64_MAX);
+  plan.count = failing_memory_number("KZ_FAIL_COUNT", 1);
+  plan.bytes = (size_t)failing_memory_number("KZ_FAIL_BYTES", 0);
 }
 
 /* Whether the code at `address` belongs to the program or a library that is named. */
-static bool counts(const void *address) {
+static bool failing_memory_counts(const void *address) {
   Dl_info object;
   if (!dladdr(address, &object) || !object.dli_fname) return false;
   const char *slash = strrchr(object.dli_fname, '/'), *file = slash ? slash + 1 : object.dli_fname;
@@ -68,9 +68,9 @@ long long kz_fail_count(void) {
   return counted;
 }
 
-static bool fails(size_t bytes, const void *caller) {
+static bool failing_memory_fails(size_t bytes, const void *caller) {
   if (!plan.known) read_plan();
-  if (!plan.here || bytes < plan.bytes || !counts(caller)) return false;
+  if (!plan.here || bytes < plan.bytes || !failing_memory_counts(caller)) return false;
   const long long n = __atomic_add_fetch(&counted, 1, __ATOMIC_RELAXED);
   if (n < plan.first || n - plan.first >= plan.count) return false;
   errno = ENOMEM;
@@ -78,44 +78,44 @@ static bool fails(size_t bytes, const void *caller) {
 }
 
 void *malloc(size_t bytes) {
-  return fails(bytes, __builtin_return_address(0)) ? NULL : __libc_malloc(bytes);
+  return failing_memory_fails(bytes, __builtin_return_address(0)) ? NULL : __libc_malloc(bytes);
 }
 
 void *calloc(size_t n, size_t bytes) {
-  return fails(n * bytes, __builtin_return_address(0)) ? NULL : __libc_calloc(n, bytes);
+  return failing_memory_fails(n * bytes, __builtin_return_address(0)) ? NULL : __libc_calloc(n, bytes);
 }
 
 void *realloc(void *old, size_t bytes) {
-  return fails(bytes, __builtin_return_address(0)) ? NULL : __libc_realloc(old, bytes);
+  return failing_memory_fails(bytes, __builtin_return_address(0)) ? NULL : __libc_realloc(old, bytes);
 }
 
 void *memalign(size_t alignment, size_t bytes) {
-  return fails(bytes, __builtin_return_address(0)) ? NULL : __libc_memalign(alignment, bytes);
+  return failing_memory_fails(bytes, __builtin_return_address(0)) ? NULL : __libc_memalign(alignment, bytes);
 }
 
 void *aligned_alloc(size_t alignment, size_t bytes) {
-  return fails(bytes, __builtin_return_address(0)) ? NULL : __libc_memalign(alignment, bytes);
+  return failing_memory_fails(bytes, __builtin_return_address(0)) ? NULL : __libc_memalign(alignment, bytes);
 }
 
 int posix_memalign(void **memory, size_t alignment, size_t bytes) {
-  if (fails(bytes, __builtin_return_address(0))) return ENOMEM;
+  if (failing_memory_fails(bytes, __builtin_return_address(0))) return ENOMEM;
   *memory = __libc_memalign(alignment, bytes);
   return *memory ? 0 : ENOMEM;
 }
 
-static char *copy(const char *text, size_t n, const void *caller) {
-  char *memory = fails(n + 1, caller) ? NULL : __libc_malloc(n + 1);
+static char *failing_memory_copy(const char *text, size_t n, const void *caller) {
+  char *memory = failing_memory_fails(n + 1, caller) ? NULL : __libc_malloc(n + 1);
   if (memory) memcpy(memory, text, n);
   if (memory) memory[n] = '\0';
   return memory;
 }
 
 char *strdup(const char *text) {
-  return copy(text, strlen(text), __builtin_return_address(0));
+  return failing_memory_copy(text, strlen(text), __builtin_return_address(0));
 }
 
 char *strndup(const char *text, size_t n) {
-  return copy(text, strnlen(text, n), __builtin_return_address(0));
+  return failing_memory_copy(text, strnlen(text, n), __builtin_return_address(0));
 }
 
 __attribute__((destructor)) static void write_tally(void) {

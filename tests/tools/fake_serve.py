@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""A double of `kapitza serve` (docs/reference/serve.md) without mechanics: its basins are stripes. As the program of an explorer it shows
-what page and server do with what the program gives seldom: slow levels (pendulum m from 5 to 6: 0 to 1 s), deafness after the first level
-(m = 6), slow frames (m = 7), refusals (m = 8), a sudden end (m = 9)."""
+"""A double of `kapitza serve` (docs/reference/serve.md) without mechanics: its basins are stripes. As the program of an
+explorer it shows what page and server do with what the program gives seldom: slow levels (pendulum m from 5 to 6: 0 to
+1 s), deafness after the first level (m = 6), slow frames (m = 7), refusals (m = 8), a sudden end (m = 9)."""
 
 import json
 import math
@@ -13,7 +13,8 @@ import time
 from decimal import Decimal, getcontext
 
 getcontext().prec = 150
-ROWS = [("down", "down", 1, 0, "down"), ("inverted", "inverted", 1, 0, "inverted"), ("flutter", "flutter", 2, 0, "inverted")]
+ROWS = [("down", "down", 1, 0, "down"), ("inverted", "inverted", 1, 0, "inverted"),
+        ("flutter", "flutter", 2, 0, "inverted")]
 STROBE = (0.0, 0.135, 0.165)  # in their own stripes, whatever the cells
 PENDULUM = {"k": 0.1, "damping": 0.05, "m": 0.3}
 out, newest = threading.Lock(), {}
@@ -27,8 +28,10 @@ def answer(kind, sequence, payload=b"", final=True, **more):
 
 
 def catalogue(sequence, pendulum, final):
-    rows = [{"id": i, "track": i, "name": name, "kind": kind, "period": period, "winding": winding, "centre": centre, "symmetric": True,
-             "mirror": i, "multiplier": 0.5, "strobe": [[STROBE[i], 0.0]]} for i, (name, kind, period, winding, centre) in enumerate(ROWS)]
+    rows = [{"id": i, "track": i, "name": name, "kind": kind, "period": period, "winding": winding, "centre": centre,
+             "symmetric": True,
+             "mirror": i, "multiplier": 0.5, "strobe": [[STROBE[i], 0.0]]} for i,
+            (name, kind, period, winding, centre) in enumerate(ROWS)]
     answer("catalogue", sequence, final=final, version=int(1000 * pendulum["m"]), pendulum=pendulum, attractors=rows)
 
 
@@ -69,14 +72,17 @@ def frame(request):
         if newest.get(view) != sequence:
             return answer("ended", sequence)
         rows, columns = (math.ceil(request[name] / level) for name in ("rows", "columns"))
-        line = bytes(label(low + width * (2 * level * j + level) / (2 * request["columns"]), pendulum["m"]) for j in range(columns))
+        line = bytes(label(low + width * (2 * level * j + level) / (2 * request["columns"]), pendulum["m"])
+                     for j in range(columns))
         planes = request.get("planes", ["labels"])
         parts = {"labels": line, "settling_time": struct.pack(f"<{columns}f", *(9.0 * x for x in line)),
                  "smooth_time": struct.pack(f"<{columns}f", *(9.0 * x + 0.5 + j / columns for j, x in enumerate(line))),
                  "doubt": bytes(x == 2 for x in line), "other": bytes(0 if x == 2 else 255 for x in line),
                  "turns": struct.pack(f"<{columns}f", *(8 * j // columns for j in range(columns)))}
-        answer("frame", sequence, b"".join(parts[name] * rows for name in planes), level == levels[-1], level=level, rows=rows,
-               columns=columns, planes=planes, catalogue=int(1000 * pendulum["m"]), quality=request.get("quality", "exact"))
+        answer("frame", sequence, b"".join(parts[name] * rows for name in planes), level == levels[-1], level=level,
+               rows=rows,
+               columns=columns, planes=planes, catalogue=int(1000 * pendulum["m"]),
+               quality=request.get("quality", "exact"))
 
 
 def other(request):
@@ -85,8 +91,8 @@ def other(request):
         catalogue(sequence, PENDULUM, True)
     elif name == "where":
         end = label(Decimal(str(request["theta"])), m)
-        answer("where", sequence, theta=float(request["theta"]), velocity=float(request["velocity"]), attractor=end, name=ROWS[end][0],
-               period=ROWS[end][2], settling_time=12, near_time=30, decided=True, precision="double",
+        answer("where", sequence, theta=float(request["theta"]), velocity=float(request["velocity"]), attractor=end,
+               name=ROWS[end][0], period=ROWS[end][2], settling_time=12, near_time=30, decided=True, precision="double",
                strobe_theta=[0.5], strobe_velocity=[0])
     elif name == "orbit":
         n, start = request["samples_per_period"], float(request["theta"])

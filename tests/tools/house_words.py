@@ -1,4 +1,5 @@
-"""Holds pages to the words of docs/develop/conventions.md: what its table "write, not" has under "not" stands in no page.
+"""Holds pages to the words of docs/develop/conventions.md: what its table "write, not" has under "not" stands in no
+page.
 
     house_words.py FILE...      prints each place; status 1 where there is one. Code in back quotes may hold any word.
 """
@@ -30,7 +31,8 @@ def faults(text, pairs):
 def main():
     pairs = unwanted(STYLE.read_text())
     found = [f'{path}:{line}: "{word}": write {better}'
-             for path in map(Path, sys.argv[1:]) if path.resolve() != STYLE for line, word, better in faults(path.read_text(), pairs)]
+             for path in map(Path, sys.argv[1:]) if path.resolve() != STYLE for line, word,
+             better in faults(path.read_text(), pairs)]
     print("\n".join(found), end="\n" if found else "")
     return 1 if found else 0
 

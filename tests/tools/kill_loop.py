@@ -1,14 +1,15 @@
-"""Kills a program with a checkpoint at random moments, resumes it at once, and compares its result with an undisturbed one.
+"""Kills a program with a checkpoint at random moments, resumes it at once, and compares its result with an undisturbed
+one.
 
     kill_loop.py [--rounds N] [--seed S] [--ranks 1,2,3,4] FOLDER PROGRAM [WORD...]
 
 A word OUT stands for the result file; --resume is added from the second start on. Example:
     kill_loop.py --rounds 30 /tmp/kills build/kapitza run scenes/small.yaml -o OUT.h5
 
-Each round starts the program on a random number of ranks, ends it by a random knock (SIGKILL of mpirun, of one rank or of
-all; SIGTERM, SIGINT or SIGUSR1 to mpirun) until it has been knocked a few times, and lets the last start finish. A start
-that hangs (unless a kill came before the program began), a result that differs, a checkpoint that stays, or work done twice
-beyond the tiles in flight is a failure.
+Each round starts the program on a random number of ranks, ends it by a random knock (SIGKILL of mpirun, of one rank or
+of all; SIGTERM, SIGINT or SIGUSR1 to mpirun) until it has been knocked a few times, and lets the last start finish. A
+start that hangs (unless a kill came before the program began), a result that differs, a checkpoint that stays, or work
+done twice beyond the tiles in flight is a failure.
 """
 
 import argparse
@@ -35,8 +36,8 @@ class Failure(Exception):
 
 def start(words, ranks):
     launcher = ["mpirun", "-n", str(ranks)]
-    return subprocess.Popen(launcher + words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True, text=True,
-                            env=os.environ | MPI_SETTINGS)
+    return subprocess.Popen(launcher + words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
+                            text=True, env=os.environ | MPI_SETTINGS)
 
 
 def children(parent):
@@ -158,7 +159,8 @@ def check(folder, result, expected, in_flight, what):
     log = Path(f"{result}.log")
     once = ONCE.get("tiles")
     if log.exists() and once and log.stat().st_size > once + in_flight:
-        raise Failure(f"{what}: {log.stat().st_size} tiles were begun where {once} are needed and {in_flight} were in flight")
+        raise Failure(
+            f"{what}: {log.stat().st_size} tiles were begun where {once} are needed and {in_flight} were in flight")
 
 
 ONCE = {}  # tiles of an undisturbed run, where the program tells

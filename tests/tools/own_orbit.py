@@ -1,12 +1,13 @@
-"""Where starts of any number of digits end: an integrator of its own, in whole numbers, for the referee of deep windows.
+"""Where starts of any number of digits end: an integrator of its own, in whole numbers, for the referee of deep
+windows.
 
-A Taylor series of theta'' + beta theta' + a(t) sin theta - b(t) cos theta = torque in fixed point; nothing is shared with the program but
-the equation. A pendulum is (k, beta, m), or (k, beta, m, vertical, horizontal, torque) with lists of (cosine, sine) of the harmonics.
-Motions begin at a strobe, or at any phase of the drive before one.
+A Taylor series of theta'' + beta theta' + a(t) sin theta - b(t) cos theta = torque in fixed point; nothing is shared
+with the program but the equation. A pendulum is (k, beta, m), or (k, beta, m, vertical, horizontal, torque) with lists
+of (cosine, sine) of the harmonics. Motions begin at a strobe, or at any phase of the drive before one.
 The tangent map, in floats, tells how much an error has grown, and so how many bits are still of use.
 
-Starts beside a common one take less time: the orbit of that one has all digits, and each start's difference from it obeys the exact
-equation of the difference, which takes few digits of its own however small it is.
+Starts beside a common one take less time: the orbit of that one has all digits, and each start's difference from it
+obeys the exact equation of the difference, which takes few digits of its own however small it is.
 """
 
 import math
@@ -89,7 +90,8 @@ def expand(steps, i, place):
     w = [velocity * steps.h >> bits]
     while len(w) < 3 or any(abs(row[-1]) + abs(row[-2]) > 1 for row in (w, s, c)):
         n = len(w) - 1
-        torque = later(force, s, n) + later(steps.across[i], c, n) + steps.damping * w[n] - (n == 0) * (steps.torque << bits)
+        torque = later(force, s, n) + later(steps.across[i], c,
+                                            n) + steps.damping * w[n] - (n == 0) * (steps.torque << bits)
         s_next, c_next = product(w, c, n), -product(w, s, n)
         w.append(-(torque >> bits) // (n + 1))
         s.append((s_next >> bits) // (n + 1))
@@ -122,7 +124,8 @@ class Orbit:
 
     def steps(self):
         harmonics = [part for rows in self.pendulum[3:5] for row in rows for part in row]
-        fastest = abs(self.place[1]) / 2**self.bits + 2 * (abs(self.pendulum[0]) + abs(self.pendulum[2]) + sum(map(abs, harmonics)))
+        fastest = abs(self.place[1]) / 2**self.bits + 2 * (abs(self.pendulum[0]) + abs(self.pendulum[2])
+                                                           + sum(map(abs, harmonics)))
         n = 16
         while 2 * math.pi / n * fastest > LARGEST_TURN:
             n *= 2
@@ -179,15 +182,18 @@ class Difference:
     def __init__(self, offset):
         """offset: two fractions, rad and rad per drive radian."""
         size = max(map(abs, offset))
-        self.scale = -math.frexp(size)[1] if size > 1e-300 else size.denominator.bit_length() - size.numerator.bit_length()
+        self.scale = (-math.frexp(size)[1]
+                      if size > 1e-300 else size.denominator.bit_length() - size.numerator.bit_length())
         self.first, self.place = self.scale, [fixed(value * 2**self.scale, OWN_BITS) for value in offset]
 
     def beginning(self, theta, bits):
         """Changes of sine and cosine: 2 cos(theta + d/2) sin(d/2) and -2 sin(theta + d/2) sin(d/2)."""
         with mpmath.workprec(OWN_BITS + 20):
             half = mpmath.ldexp(mpmath.mpf(self.place[0]), -OWN_BITS - self.scale - 1)
-            middle, change = mpmath.ldexp(mpmath.mpf(theta), -bits) + half, mpmath.ldexp(2 * mpmath.sin(half), self.scale)
-            return [from_mpmath(change * mpmath.cos(middle), OWN_BITS)], [from_mpmath(-change * mpmath.sin(middle), OWN_BITS)]
+            middle, change = mpmath.ldexp(mpmath.mpf(theta),
+                                          -bits) + half, mpmath.ldexp(2 * mpmath.sin(half), self.scale)
+            return [from_mpmath(change * mpmath.cos(middle), OWN_BITS)], [from_mpmath(-change * mpmath.sin(middle),
+                                                                                      OWN_BITS)]
 
     def step(self, steps, theta, rows):
         """Through a step of the common orbit, from its angle there and its series of speed, sine, cosine and force."""
@@ -240,7 +246,8 @@ def arrival(orbit, strobes):
 
 
 def follow(orbit, strobes, most_periods):
-    """The number of the attractor that it comes to, and whether it came to one, or to none in so many periods, before it was lost."""
+    """The number of the attractor that it comes to, and whether it came to one, or to none in so many periods, before
+    it was lost."""
     for _ in range(most_periods):
         orbit.advance()
         if orbit.lost():
@@ -252,7 +259,8 @@ def follow(orbit, strobes, most_periods):
 
 
 def end_of(pendulum, start, strobes, digits, most_periods=3000, phase=0):
-    """The number of the attractor that the orbit of a start comes to, by lists of their strobe points; None where it comes to none.
+    """The number of the attractor that the orbit of a start comes to, by lists of their strobe points; None where it
+    comes to none.
 
     start: two fractions or decimal texts; digits: that tell it from its neighbours; phase: of the drive at the start, a
     double."""
@@ -264,7 +272,8 @@ def end_of(pendulum, start, strobes, digits, most_periods=3000, phase=0):
 
 
 def ends_beside(pendulum, centre, offsets, strobes, digits, most_periods=3000):
-    """The same of the starts at `offsets` from a common one; digits: that tell them apart. Those that lose theirs are followed alone."""
+    """The same of the starts at `offsets` from a common one; digits: that tell them apart. Those that lose theirs are
+    followed alone."""
     common = Orbit(pendulum, centre, math.ceil(digits * math.log2(10)) + GUARD)
     differences, ends = {i: Difference(offset) for i, offset in enumerate(offsets)}, {}
     for _ in range(most_periods):

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What axe-core finds on the explorer's page in its main states: both themes on a desk and on a phone. Status 1 if something is serious.
+"""What axe-core finds on the explorer's page in its main states: both themes on a desk and on a phone. Status 1 if
+something is serious.
 
     page_access.py node_modules/axe-core/axe.min.js"""
 

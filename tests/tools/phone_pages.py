@@ -1,5 +1,5 @@
-"""Opens every page of the site in Chromium at a phone's width, and every twelfth page in two wider windows, and names the pages whose text
-is wider than the window.
+"""Opens every page of the site in Chromium at a phone's width, and every twelfth page in two wider windows, and names
+the pages whose text is wider than the window.
 
     phone_pages.py build/site/VERSION [--width 390] [--pictures FOLDER]      status 1 if there is such a page
 
@@ -20,7 +20,8 @@ def browser(width):
     options = webdriver.ChromeOptions()
     for option in ("--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--disable-dev-shm-usage"):
         options.add_argument(option)
-    options.add_experimental_option("mobileEmulation", {"deviceMetrics": {"width": width, "height": 800, "pixelRatio": 2}})
+    options.add_experimental_option("mobileEmulation",
+                                    {"deviceMetrics": {"width": width, "height": 800, "pixelRatio": 2}})
     return webdriver.Chrome(options=options, service=webdriver.ChromeService("/usr/bin/chromedriver"))
 
 

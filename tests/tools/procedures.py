@@ -26,7 +26,8 @@ def of_fortran(text):
         depth, end = 1, last
         while depth > 0:
             end += 1
-            depth += -1 if re.match(r"\s*end\s+(subroutine|function)\b", lines[end], re.I) else bool(_FORTRAN.match(lines[end]))
+            depth += -1 if re.match(r"\s*end\s+(subroutine|function)\b", lines[end],
+                                    re.I) else bool(_FORTRAN.match(lines[end]))
         yield begun[2], _count(listed[1]) if listed else 0, end - i + 1
 
 

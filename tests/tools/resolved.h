@@ -6,7 +6,7 @@
 #include "scene/scene.h"
 
 /* To be freed. */
-static inline char *resolved(const kz_scene *scene) {
+static inline char *resolved_text(const kz_scene *scene) {
   char *text;
   size_t size;
   FILE *out = open_memstream(&text, &size);

@@ -11,7 +11,7 @@
 enum { NONE = -1, UNKNOWN = -2 };
 static const char SECTION[8] = "kzstage"; /* magic of src/parallel/section.c */
 
-static long number(const char *name) {
+static long stop_at_number(const char *name) {
   const char *text = getenv(name);
   return text ? atol(text) : NONE;
 }
@@ -21,9 +21,9 @@ ssize_t pwrite(int file, const void *bytes, size_t n, off_t offset) {
   ssize_t (*real)(int, const void *, size_t, off_t) =
       (ssize_t (*)(int, const void *, size_t, off_t))dlsym(RTLD_NEXT, "pwrite");
   const ssize_t written = real(file, bytes, n, offset);
-  if (left == UNKNOWN) left = number("KZ_RESUMED") > 0 ? number("KZ_WRITES") : NONE;
+  if (left == UNKNOWN) left = stop_at_number("KZ_RESUMED") > 0 ? stop_at_number("KZ_WRITES") : NONE;
   if (n >= sizeof SECTION && memcmp(bytes, SECTION, sizeof SECTION) == 0)
-    left = number("KZ_WRITES");
+    left = stop_at_number("KZ_WRITES");
   else if (left > 0)
     left--;
   else

@@ -14,11 +14,13 @@ static size_t test_count;
 
 /* Keeps the list in the order of the lines, whatever the order of constructors. */
 static inline void list_test(const char *name, CMUnitTestFunction function, size_t line) {
-  static size_t lines[MOST_TESTS];
-  size_t at = test_count++;
-  for (; at > 0 && lines[at - 1] > line; at--) all_tests[at] = all_tests[at - 1], lines[at] = lines[at - 1];
-  all_tests[at] = (struct CMUnitTest){.name = name, .test_func = function};
-  lines[at] = line;
+  static size_t spectrum_lines[MOST_TESTS];
+  size_t arbitrary_at = test_count++;
+  for (; arbitrary_at > 0 && spectrum_lines[arbitrary_at - 1] > line; arbitrary_at--)
+    all_tests[arbitrary_at] = all_tests[arbitrary_at - 1],
+    spectrum_lines[arbitrary_at] = spectrum_lines[arbitrary_at - 1];
+  all_tests[arbitrary_at] = (struct CMUnitTest){.name = name, .test_func = function};
+  spectrum_lines[arbitrary_at] = line;
 }
 
 #define TEST(name)                                             \
@@ -28,8 +30,8 @@ static inline void list_test(const char *name, CMUnitTestFunction function, size
   }                                                            \
   static void name(__attribute__((unused)) void **test_state)
 
-static inline int run_all_tests(CMFixtureFunction begin, CMFixtureFunction end) {
-  return _cmocka_run_group_tests("tests", all_tests, test_count, begin, end);
+static inline int run_all_tests(CMFixtureFunction schedule_begin, CMFixtureFunction end) {
+  return _cmocka_run_group_tests("tests", all_tests, test_count, schedule_begin, end);
 }
 
 #ifndef OWN_MAIN

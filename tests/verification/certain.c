@@ -69,7 +69,8 @@ static kz_pendulum drive_of(int which) {
 }
 
 /* By the reference: where n starts end after their release; 0 = nowhere within so many periods. */
-static void truth(kz_dynamics *d, const kz_pendulum *p, int n, const kz_start *start, int64_t periods, int32_t *label) {
+static void certain_truth(kz_dynamics *d, const kz_pendulum *p, int n, const kz_start *start, int64_t periods,
+                          int32_t *label) {
   static kz_start released[MOST];
   static kz_reference_state late[MOST];
   static int place[MOST];
@@ -98,7 +99,7 @@ static void truth(kz_dynamics *d, const kz_pendulum *p, int n, const kz_start *s
 }
 
 /* All levels, one after the other; decision [n]. */
-static void decide(kz_dynamics *d, int n, const kz_start *start, kz_decision *decision) {
+static void certain_decide(kz_dynamics *d, int n, const kz_start *start, kz_decision *decision) {
   static kz_start some[MOST];
   static kz_decision found[MOST];
   static int place[MOST];
@@ -125,11 +126,12 @@ typedef struct {
 } counts;
 
 /* Counts decided labels of starts; those whose end quad precision does not know are left out if `periods` are few. */
-static void judge(kz_dynamics *d, const kz_pendulum *p, int n, const kz_start *start, int64_t periods, counts *c) {
+static void certain_judge(kz_dynamics *d, const kz_pendulum *p, int n, const kz_start *start, int64_t periods,
+                          counts *c) {
   static kz_decision decision[MOST];
   static int32_t label[MOST];
-  decide(d, n, start, decision);
-  truth(d, p, n, start, periods, label);
+  certain_decide(d, n, start, decision);
+  certain_truth(d, p, n, start, periods, label);
   for (int i = 0; i < n; i++) {
     if (decision[i].end.label <= 0 || (label[i] == 0 && periods < MAX_PERIODS)) continue;
     c->decided++;
@@ -138,7 +140,7 @@ static void judge(kz_dynamics *d, const kz_pendulum *p, int n, const kz_start *s
   }
 }
 
-static void show(const char *name, size_t which, const counts *c) {
+static void certain_show(const char *name, size_t which, const counts *c) {
   print_message("%s %d: %d of %d decided wrongly; by level", name, (int)which, c->wrong, c->decided);
   for (int level = 0; level < KZ_LEVELS; level++) print_message(" %d", c->by_level[level]);
   print_message("\n");
@@ -154,7 +156,7 @@ static int32_t end_of(kz_dynamics *d, const double state[2]) {
 }
 
 /* A boundary between two states (half-turns, velocity) with different ends. */
-static void bisect(kz_dynamics *d, double a[2], const double b[2]) {
+static void certain_bisect(kz_dynamics *d, double a[2], const double b[2]) {
   double other[2] = {b[0], b[1]};
   const int32_t own = end_of(d, a);
   for (int i = 0; i < BISECTIONS; i++) {
@@ -170,24 +172,24 @@ TEST(test_decided_beside_boundaries_is_right) {
   for (size_t p = 0; p < sizeof pendulums / sizeof pendulums[0]; p++) {
     int found = 0, of_this = 0;
     counts all = {0}, known = {0};
-    kz_dynamics *d = explored_pendulum(pendulums + p, numerics(), 1, 0, 4.0);
+    kz_dynamics *d = explored_pendulum(pendulums + p, fine_numerics(), 1, 0, 4.0);
     kz_dynamics_starts(&WINDOW, 11 + (int64_t)p, PAIRS, x);
     for (int i = 0; i + 1 < PAIRS && found < boundaries; i += 2) {
       kz_start start[CLOSE];
       if (end_of(d, x + 2 * i) == end_of(d, x + 2 * i + 2)) continue;
-      bisect(d, x + 2 * i, x + 2 * i + 2);
+      certain_bisect(d, x + 2 * i, x + 2 * i + 2);
       found++;
       for (int e = 0; e < CLOSE; e++)
         start[e] = (kz_start){.theta = {M_PI * x[2 * i] + pow(10, e - 16)}, .velocity = {x[2 * i + 1]}};
-      judge(d, pendulums + p, CLOSE, start, FOLLOWED, &all);
+      certain_judge(d, pendulums + p, CLOSE, start, FOLLOWED, &all);
     }
     for (size_t i = 0; i < sizeof once_wrong / sizeof *once_wrong; i++) {
       const kz_start start = {.theta = {once_wrong[i].theta}, .velocity = {once_wrong[i].velocity}};
       if (once_wrong[i].pendulum != p) continue;
-      judge(d, pendulums + p, 1, &start, FOLLOWED, &known);
+      certain_judge(d, pendulums + p, 1, &start, FOLLOWED, &known);
       of_this++;
     }
-    show("pendulum", p, &all);
+    certain_show("pendulum", p, &all);
     assert_int_equal(all.wrong + known.wrong, 0);
     assert_int_equal(known.decided, of_this);
     assert_true(all.decided > 0);
@@ -204,7 +206,7 @@ TEST(test_decisions_have_no_history) {
   kz_dynamics_starts(&WINDOW, 5, N, x);
   for (int i = 0; i < N; i++) start[i] = (kz_start){.theta = {M_PI * x[2 * i]}, .velocity = {x[2 * i + 1]}};
   for (int again = 0; again < 2; again++) {
-    kz_dynamics *d = explored_pendulum(&pendulums[4], numerics(), 1, 0, 3);
+    kz_dynamics *d = explored_pendulum(&pendulums[4], fine_numerics(), 1, 0, 3);
     kz_dynamics_fine_regions(d, 200, 3);
     if (again)
       kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_PAIRS_16, .before = KZ_LEVEL_FINE}, N, start,
@@ -220,15 +222,15 @@ TEST(test_decisions_have_no_history) {
 }
 
 /* No decided label of some starts (MOST in an extensive run) is wrong, and most are decided. */
-static void check(const char *name, int which, kz_dynamics *d, const kz_pendulum *p, int some) {
+static void certain_check(const char *name, int which, kz_dynamics *d, const kz_pendulum *p, int some) {
   static double x[2 * MOST];
   static kz_start start[MOST];
   const int n = getenv("KAPITZA_EXTENSIVE") ? MOST : some;
   counts all = {0};
   kz_dynamics_starts(&WINDOW, 5 + which, MOST, x);
   for (int i = 0; i < n; i++) start[i] = (kz_start){.theta = {M_PI * x[2 * i]}, .velocity = {x[2 * i + 1]}};
-  judge(d, p, n, start, MAX_PERIODS, &all);
-  show(name, (size_t)which, &all);
+  certain_judge(d, p, n, start, MAX_PERIODS, &all);
+  certain_show(name, (size_t)which, &all);
   assert_int_equal(all.wrong, 0);
   assert_true(10 * all.decided >= 8 * n);
 }
@@ -236,8 +238,8 @@ static void check(const char *name, int which, kz_dynamics *d, const kz_pendulum
 TEST(test_decided_under_other_drives_is_right) {
   for (int which = 0; which < DRIVES; which++) {
     const kz_pendulum p = drive_of(which);
-    kz_dynamics *d = explored_pendulum(&p, numerics(), 1, 0, 4.0);
-    check("drive", which, d, &p, 5);
+    kz_dynamics *d = explored_pendulum(&p, fine_numerics(), 1, 0, 4.0);
+    certain_check("drive", which, d, &p, 5);
     kz_dynamics_free(d);
   }
 }
@@ -249,7 +251,7 @@ TEST(test_releases_know_their_errors) {
   static const kz_release releases[] = {{.phase = 2, .damping = 1.0 / 55, .drive = 1},
                                         {.periods = 4.5, .damping = 0.002, .drive = 1},
                                         {.phase = 0.5, .periods = 3, .damping = 1.0 / 55, .drive = 0.2}};
-  kz_dynamics *d = explored_pendulum(&FIG12, numerics(), 1, 0, 4.0);
+  kz_dynamics *d = explored_pendulum(&FIG12, fine_numerics(), 1, 0, 4.0);
   for (size_t which = 0; which < sizeof releases / sizeof *releases; which++) {
     kz_start fine = {.theta = {0.7}, .velocity = {-0.4}}, plain = fine;
     kz_dynamics_set_release(d, releases + which);
@@ -267,10 +269,10 @@ TEST(test_decided_after_a_ramp_is_right) {
   const double periods = getenv("KAPITZA_EXTENSIVE") ? 100 : 30;
   const kz_release ramps[] = {{.periods = periods, .damping = 0.004, .drive = 1},
                               {.periods = periods, .damping = 1.0 / 55, .drive = 0.6}};
-  kz_dynamics *d = explored_pendulum(&FIG12, numerics(), 1, 0, 4.0);
+  kz_dynamics *d = explored_pendulum(&FIG12, fine_numerics(), 1, 0, 4.0);
   for (int which = 0; which < 2; which++) {
     kz_dynamics_set_release(d, ramps + which);
-    check("ramp", which, d, &FIG12, 3);
+    certain_check("ramp", which, d, &FIG12, 3);
   }
   kz_dynamics_free(d);
 }

@@ -89,7 +89,7 @@ static void own_label(const view *v, int64_t cell, kz_decision *decision) {
 }
 
 /* Every cell is decided, and as its own orbit ends. The labels differ among the cells. */
-static void compare(const window *w) {
+static void depth_compare(const window *w) {
   enum { MOST = 64 };
   view v = open_view(w);
   int64_t item[MOST];
@@ -125,8 +125,8 @@ TEST(labels_are_those_of_own_orbits) {
   };
   static const window deep[] = {{K01, K01_DEEP, "17", "1e-50", 0}, {K01, K01_DEEP, "17", "1e-100", 0}};
   for (size_t i = 0; i < sizeof windows / sizeof *windows; i += getenv("KAPITZA_EXTENSIVE") ? 1 : 2)
-    compare(windows + i);
-  for (size_t i = 0; getenv("KAPITZA_EXTENSIVE") && i < sizeof deep / sizeof *deep; i++) compare(deep + i);
+    depth_compare(windows + i);
+  for (size_t i = 0; getenv("KAPITZA_EXTENSIVE") && i < sizeof deep / sizeof *deep; i++) depth_compare(deep + i);
 }
 
 /* States of a cell and its sample, at most half a step and a tenth away; a step's image is `step` long. */

@@ -13,7 +13,7 @@ static void put_starts(double *theta, double *velocity) {
   for (int i = 0; i < N; i++) theta[i] = -1.5 + 0.2 * i, velocity[i] = 0.4 - 0.05 * i;
 }
 
-static void fly(const kz_pendulum *pendulum, kz_numerics numerics, double *theta, double *velocity) {
+static void orders_fly(const kz_pendulum *pendulum, kz_numerics numerics, double *theta, double *velocity) {
   int64_t turns[N] = {0};
   kz_flow *flow = kz_flow_create(pendulum, &numerics);
   assert_non_null(flow);
@@ -30,7 +30,7 @@ static double error_of(const kz_pendulum *pendulum, kz_numerics numerics) {
   kz_reference_start(N, exact, exact_velocity, NULL, states);
   kz_reference_advance(pendulum, KZ_REFERENCE_STEPS, N, 1, states);
   kz_reference_read(N, states, exact, exact_velocity, turns);
-  fly(pendulum, numerics, theta, velocity);
+  orders_fly(pendulum, numerics, theta, velocity);
   for (int i = 0; i < N; i++) sum += pow(theta[i] - exact[i], 2) + pow(velocity[i] - exact_velocity[i], 2);
   return sqrt(sum / N);
 }

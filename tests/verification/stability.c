@@ -17,7 +17,7 @@ static double random_between(double low, double high) {
   return low + (high - low) * drand48();
 }
 
-static double growth(double k, double beta, double m, double *angle) {
+static double stability_growth(double k, double beta, double m, double *angle) {
   double log_multiplier;
   uint8_t stable;
   kz_linear_floquet(NULL, 1, &k, &beta, &m, &log_multiplier, angle, &stable);
@@ -27,7 +27,7 @@ static double growth(double k, double beta, double m, double *angle) {
 /* Where a point lies: 0 between the tongues, else the multiplier that grows, +1 or -1. */
 static int tongue_sign(double k, double m) {
   double angle;
-  const double rate = growth(k, 0, m, &angle);
+  const double rate = stability_growth(k, 0, m, &angle);
   return rate > 0 ? (angle == 0 ? 1 : -1) : 0;
 }
 
@@ -61,9 +61,10 @@ TEST(damped_edges_have_multiplier_one) {
         kz_curve_values(&kz_curves[row], &damping, 1, &k, &m);
         if (isnan(m)) continue;
         double beta = kz_damping_at(&damping, k);
-        double below = growth(k, beta, m * (1 - 1e-9), &angle), above = growth(k, beta, m * (1 + 1e-9), &angle);
+        double below = stability_growth(k, beta, m * (1 - 1e-9), &angle),
+               above = stability_growth(k, beta, m * (1 + 1e-9), &angle);
         assert_true(leaves ? below > 0 && above < 0 : below < 0 && above > 0);
-        growth(k, beta, m * (leaves ? 1 - 1e-9 : 1 + 1e-9), &angle);
+        stability_growth(k, beta, m * (leaves ? 1 - 1e-9 : 1 + 1e-9), &angle);
         if (tongue > 0) assert_true(angle == (tongue == 1 ? 0.5 : 0));
         seen++;
       }
@@ -93,7 +94,7 @@ TEST(subharmonics_have_their_angle) {
     for (int i = 0; i < POINTS / 8; i++) {
       double k = random_between(-1, 1.0 / (orders[j] * orders[j])), exact, formula, angle;
       kz_subharmonic_values(orders[j], 1, &k, &exact, &formula);
-      growth(k, 0, exact, &angle);
+      stability_growth(k, 0, exact, &angle);
       assert_true(fabs(angle - 1.0 / orders[j]) < 1e-9);
       assert_true(fabs(formula - exact) < 0.01 * (1 + exact));
     }

@@ -1,7 +1,9 @@
-"""Branches of manifolds as smooth curves of one number, their place: where two of them cross, and how far apart they are.
+"""Branches of manifolds as smooth curves of one number, their place: where two of them cross, and how far apart they
+are.
 
-The point of place n + x is the image, after n returns, of the point at the distance `distance` * multiplier^x from the cycle along the
-eigenvector (0 <= x < 1), and its tangent the image of the derivative there. Stable manifolds are those of reversed time.
+The point of place n + x is the image, after n returns, of the point at the distance `distance` * multiplier^x from the
+cycle along the eigenvector (0 <= x < 1), and its tangent the image of the derivative there. Stable manifolds are those
+of reversed time.
 """
 
 from collections.abc import Sequence
@@ -17,7 +19,8 @@ if TYPE_CHECKING:
 
 Reals = NDArray[np.float64]
 
-DISTANCE = 1e-7      # rad: distance of a branch's beginning from its cycle; the branch leaves its tangent by the square of this
+# Rad: distance of a branch's beginning from its cycle; the branch leaves its tangent by the square of this
+DISTANCE = 1e-7
 TRACE_BEGINS = 1e-3  # rad from the cycle
 SPACING = 0.05       # rad, and as a place: distance of neighbours in a trace
 MOST_POINTS = 20000
@@ -71,7 +74,8 @@ class Branch:
         return np.array(places), np.array([row[0] for row in rows]), np.array([row[1] for row in rows])
 
 
-def branch_of(pendulum: "Pendulum", point: Reals, period: int, side: int, *, stable: bool, distance: float = DISTANCE) -> Branch:
+def branch_of(pendulum: "Pendulum", point: Reals, period: int, side: int, *, stable: bool,
+              distance: float = DISTANCE) -> Branch:
     """The branch from a strobe point of a cycle to one side (1 or -1). Lost if the cycle is no saddle."""
     sign = -1 if stable else 1
     (a, b), (c, d) = np.asarray(pendulum.map(point[0], point[1], sign * period, tangent=True).tangent)
@@ -79,12 +83,14 @@ def branch_of(pendulum: "Pendulum", point: Reals, period: int, side: int, *, sta
     if not root > 0:
         raise Lost("the cycle is no saddle")
     multiplier = half + copysign(root**0.5, half)
-    direction = np.array([b, multiplier - a]) if hypot(b, multiplier - a) >= abs(multiplier - d) else np.array([multiplier - d, c])
+    direction = np.array([b, multiplier - a]) if hypot(b, multiplier
+                                                       - a) >= abs(multiplier - d) else np.array([multiplier - d, c])
     if not abs(multiplier) > 1:
         raise Lost("the cycle is no saddle")
     twice = 2 if multiplier < 0 else 1
     direction *= side / hypot(*direction)
-    return Branch(pendulum, np.array(point, dtype=float), direction, abs(multiplier) ** twice, sign * twice * period, distance)
+    return Branch(pendulum, np.array(point, dtype=float), direction, abs(multiplier) ** twice, sign * twice * period,
+                  distance)
 
 
 def _cross(a: Reals, b: Reals) -> Any:
@@ -102,7 +108,8 @@ def _sine(a: Reals, b: Reals) -> Any:
     return _cross(a, b) / (np.hypot(*np.moveaxis(a, -1, 0)) * np.hypot(*np.moveaxis(b, -1, 0)))
 
 
-def crossing(first: tuple[Reals, Reals, Reals], second: tuple[Reals, Reals, Reals]) -> tuple[float, tuple[float, float]]:
+def crossing(first: tuple[Reals, Reals, Reals],
+             second: tuple[Reals, Reals, Reals]) -> tuple[float, tuple[float, float]]:
     """The smallest sine of the angle at which two traces cross, and the places there; infinite if they do not cross."""
     (place, point, tangent), (place_2, point_2, tangent_2) = first, second
     if min(len(place), len(place_2)) < 2:
@@ -122,7 +129,8 @@ def crossing(first: tuple[Reals, Reals, Reals], second: tuple[Reals, Reals, Real
 
 
 def distance_between(first: Branch, second: Branch, places: Sequence[float]) -> tuple[float, tuple[float, float]]:
-    """The distance, with a sign, between two branches where they are parallel, and the places there; NaN if Newton's method fails."""
+    """The distance, with a sign, between two branches where they are parallel, and the places there; NaN if Newton's
+    method fails."""
     def conditions(x: Reals) -> tuple[Reals, float]:
         (point, tangent), (point_2, tangent_2) = ((rows[0] for rows in branch.points([float(place)]))
                                                   for branch, place in ((first, x[0]), (second, x[1])))
@@ -132,7 +140,8 @@ def distance_between(first: Branch, second: Branch, places: Sequence[float]) -> 
     x, step = np.array(places, dtype=float), 1e-5
     for _ in range(30):
         value, across = conditions(x)
-        slope = np.stack([(conditions(x + one)[0] - conditions(x - one)[0]) / (2 * step) for one in step * np.eye(2)], axis=1)
+        slope = np.stack([(conditions(x + one)[0] - conditions(x - one)[0]) / (2 * step) for one in step * np.eye(2)],
+                         axis=1)
         try:
             change = -np.linalg.solve(slope, value)
         except np.linalg.LinAlgError:

@@ -1,10 +1,12 @@
 """The value of a parameter at which an unstable and a stable manifold touch and begin to cross.
 
-Below the value the two curves lie apart, above it (or the other way round) they cross infinitely often: the erosion of the basins
-begins. For weak damping and a weak drive Melnikov's method gives m = (4/pi) beta k^(3/2) sinh(pi/(2 sqrt(k))) for the inverted state.
+Below the value the two curves lie apart, above it (or the other way round) they cross infinitely often: the erosion of
+the basins begins. For weak damping and a weak drive Melnikov's method gives m = (4/pi) beta k^(3/2) sinh(pi/(2
+sqrt(k))) for the inverted state.
 
-The range is halved by whether traces of the branches (kapitza.boundaries.branch) cross; then Newton's method moves a place on each
-branch to where the two are parallel, the nearest points opposite, and Brent's method finds the value at which their distance is 0.
+The range is halved by whether traces of the branches (kapitza.boundaries.branch) cross; then Newton's method moves a
+place on each branch to where the two are parallel, the nearest points opposite, and Brent's method finds the value at
+which their distance is 0.
 """
 
 from dataclasses import dataclass
@@ -23,7 +25,8 @@ if TYPE_CHECKING:
     from kapitza.pendulum import Pendulum
 
 FARTHER = 5    # factor by which branches begin farther away when the error is measured
-MARGIN = 4     # factor from the change that this makes to the error: the change is one sample of it, which may be larger
+# Factor from the change that this makes to the error: the change is one sample of it, which may be larger
+MARGIN = 4
 HALVINGS = 10  # of the range, before Newton's method
 STEPS = 16     # steps of a cycle along the whole range
 
@@ -54,7 +57,8 @@ class Search:
                     raise Lost("a cycle ends") from error
                 if int(cycle.period) != len(points):
                     raise Lost("a cycle ends")
-                self.cycles[number] = np.stack([cycle.strobe_theta.values, cycle.strobe_velocity.values], axis=1)[:len(points)]
+                self.cycles[number] = np.stack([cycle.strobe_theta.values, cycle.strobe_velocity.values],
+                                               axis=1)[:len(points)]
         self.value = value
         return self.pendulum.with_(**{self.parameter: float(value)})
 
@@ -62,7 +66,8 @@ class Search:
         side, phase, side_2 = pair or self.pair
         pendulum = self.at(value)
         return (branch_of(pendulum, self.cycles[0][0], len(self.cycles[0]), side, stable=False, distance=self.distance),
-                branch_of(pendulum, self.cycles[1][phase], len(self.cycles[1]), side_2, stable=True, distance=self.distance))
+                branch_of(pendulum, self.cycles[1][phase], len(self.cycles[1]), side_2, stable=True,
+                          distance=self.distance))
 
     def crosses(self, value: float) -> bool:
         """Whether any two branches cross at a value; the pair that does so at the smallest angle is kept."""
@@ -100,7 +105,8 @@ class Search:
     def error(self, value: float, width: float) -> float:
         """MARGIN times the change of the value where branches begin FARTHER times as far from the cycles."""
         pair, kept = self.branches(value), (self.places, self.distance)
-        first, second = (place - log(FARTHER) / log(branch.multiplier) for place, branch in zip(self.places, pair, strict=True))
+        first, second = (place - log(FARTHER) / log(branch.multiplier) for place,
+                         branch in zip(self.places, pair, strict=True))
         self.places, self.distance = (first, second), FARTHER * self.distance
         again = self.root(value - width, value + width)
         self.places, self.distance = kept
@@ -122,7 +128,8 @@ def _points(cycle: xarray.Dataset) -> Reals:
 
 def tangency(pendulum: "Pendulum", parameter: str, low: float, high: float, *, saddle: xarray.Dataset | None = None,
              into: xarray.Dataset | None = None, length: float = 8) -> xarray.Dataset:
-    """The value of a parameter, between low and high, at which an unstable and a stable manifold touch and begin to cross.
+    """The value of a parameter, between low and high, at which an unstable and a stable manifold touch and begin to
+    cross.
 
     >>> pendulum = kapitza.Pendulum(k=1, damping=0.02, m=0.05)
     >>> kapitza.tangency(pendulum, "m", 0.02, 0.1).attrs["value"]      # 0.0585896884310
@@ -130,8 +137,8 @@ def tangency(pendulum: "Pendulum", parameter: str, low: float, high: float, *, s
     :param saddle: the cycle of the unstable manifold, at the pendulum's own value; None = the inverted state
     :param into: the cycle of the stable manifold; None = the same (a homoclinic tangency)
     :param length: of each branch that is looked at, rad and rad per drive radian together
-    :return: the orbit through the point of contact (theta, velocity by strobe); attributes are `value`, its `error`, and `crossing`:
-        whether the manifolds cross "above" or "below" the value
+    :return: the orbit through the point of contact (theta, velocity by strobe); attributes are `value`, its `error`,
+        and `crossing`: whether the manifolds cross "above" or "below" the value
     :raises ValueError: if the manifolds cross at both ends or at neither, or a cycle ends or is no saddle on the way
     """
     first = pendulum.cycle(np.pi, 0) if saddle is None else saddle
@@ -141,7 +148,8 @@ def tangency(pendulum: "Pendulum", parameter: str, low: float, high: float, *, s
     kept = search.pair, search.places
     below = search.crosses(low)
     if above == below:
-        raise ValueError(f"the manifolds cross at {'both ends' if above else 'neither end'} of {low:g} to {high:g}; they must cross at one")
+        raise ValueError(f"the manifolds cross at {'both ends' if above else 'neither end'} of {low:g} to {high:g}; "
+                         "they must cross at one")
     if above:
         search.pair, search.places = kept
     crossed, apart = (high, low) if above else (low, high)
@@ -151,18 +159,21 @@ def tangency(pendulum: "Pendulum", parameter: str, low: float, high: float, *, s
     value = search.root(apart, crossed)
     error = nan if isnan(value) else search.error(value, abs(crossed - apart))
     if isnan(error):
-        raise ValueError(f"length {length:g} leads to manifolds that do not touch smoothly where they begin to cross; choose another one")
+        raise ValueError(f"length {length:g} leads to manifolds that do not touch smoothly where they begin to cross; "
+                         "choose another one")
     search.gap(value)
     return _described(search, parameter, value, error, above)
 
 
 def _described(search: Search, parameter: str, value: float, error: float, above: bool) -> xarray.Dataset:
-    """The group `tangency`: the orbit has a state for each return to either cycle, `strobe` drive periods from the contact."""
+    """The group `tangency`: the orbit has a state for each return to either cycle, `strobe` drive periods from the
+    contact."""
     unstable, stable = search.branches(value)
     before, after = (int(place) for place in search.places)
     states = np.concatenate([unstable.points([search.places[0] - n for n in range(before, -1, -1)])[0],
                              stable.points([search.places[1] - n for n in range(1, after + 1)])[0]])
-    strobe = [*(-n * unstable.periods for n in range(before, -1, -1)), *(n * -stable.periods for n in range(1, after + 1))]
+    strobe = [*(-n * unstable.periods for n in range(before, -1, -1)),
+              *(n * -stable.periods for n in range(1, after + 1))]
     theta = (states[:, 0] + np.pi) % (2 * np.pi) - np.pi
     orbit = xarray.Dataset({"theta": ("strobe", theta), "velocity": ("strobe", states[:, 1])}, {"strobe": strobe})
     return layout.described("tangency", orbit).assign_attrs(value=value, error=error, parameter=parameter,

@@ -2,7 +2,8 @@
 
     kapitza plot atlas atlas-blackburn.h5                      the map: the curves, over what lives where
     kapitza plot atlas atlas-blackburn.h5 --view motions       small maps: where each motion attracts
-    kapitza plot atlas atlas-blackburn.h5 --view line --x 11   all branches along the line where x is 11; those that repel are dashed
+    kapitza plot atlas atlas-blackburn.h5 --view line --x 11
+        all branches along the line where x is 11; those that repel are dashed
     kapitza plot atlas atlas-blackburn.h5 --longest 2          cycles of up to two periods alone
     kapitza plot atlas atlas-blackburn.h5 --points fig4.csv    with published points on top
     kapitza plot atlas atlas-blackburn.h5 --theme dark         on dark paper, for slides
@@ -39,10 +40,13 @@ VIEWS = ("map", "motions", "line")
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--view", choices=VIEWS)
     parser.add_argument("--longest", type=int, help="longest period of the cycles that are drawn")
-    parser.add_argument("--x", type=float, help="the line of the view `line`: value of the key along the horizontal axis, "
+    parser.add_argument("--x", type=float,
+                        help="the line of the view `line`: value of the key along the horizontal axis, "
                         "in the unit of that axis")
-    parser.add_argument("--y", type=float, help="or of that along the vertical axis (default: the middle of the horizontal one)")
-    parser.add_argument("--points", metavar="CSV", help="points on the map, with the columns x, y and label; points with one label have "
+    parser.add_argument("--y", type=float,
+                        help="or of that along the vertical axis (default: the middle of the horizontal one)")
+    parser.add_argument("--points", metavar="CSV",
+                        help="points on the map, with the columns x, y and label; points with one label have "
                         "one mark")
     parser.add_argument("--theme", choices=("light", "dark"), help="the paper")
 
@@ -76,22 +80,24 @@ def write_legend(axes: Axes, atlas: xarray.Dataset, kinds: np.ndarray, shades: l
     words = {SWINGS: "rest: period doubling", LEANS: "rest: pitchfork", FOLD: "fold", DOUBLING: "period doubling",
              BREAKING: "symmetry breaking"}
     drawn = set(atlas["curve_kind"].values.tolist())
-    handles += [Line2D([], [], color=style.INK if kind in (SWINGS, LEANS) else GREY, linewidth=1.2 if kind in (SWINGS, LEANS) else 0.8,
+    handles += [Line2D([], [], color=style.INK if kind in (SWINGS, LEANS) else GREY,
+                       linewidth=1.2 if kind in (SWINGS, LEANS) else 0.8,
                        linestyle=DASHES[kind], label=word) for kind, word in words.items() if kind in drawn]
-    axes.legend(handles=handles + marks, loc="upper left", bbox_to_anchor=(1.02, 1), handlelength=2, borderaxespad=0, frameon=False)
+    axes.legend(handles=handles + marks, loc="upper left", bbox_to_anchor=(1.02, 1), handlelength=2, borderaxespad=0,
+                frameon=False)
 
 
 def draw_map(axes: Axes, atlas: xarray.Dataset, *, colours: Mapping[str, str] | None = None, legend: bool = True,
              longest: int = LONGEST, points: str | None = None) -> Axes:
-    """The plane with the curves of cycles of up to `longest` periods. Each cell has the colour of the first kind of motion of LIVING that
-    attracts there: `colours` (kind -> colour), else light shades of those of all pictures.
+    """The plane with the curves of cycles of up to `longest` periods. Each cell has the colour of the first kind of
+    motion of LIVING that attracts there: `colours` (kind -> colour), else light shades of those of all pictures.
 
     `points`: a CSV file of points on top.
     """
     kinds, shades = living(atlas), kind_colours(colours or {})
     axes.set_facecolor(UNKNOWN if (kinds < 0).any() else "white")
-    axes.pcolormesh(atlas["column"], atlas["row"], np.ma.masked_less(kinds, 0), cmap=ListedColormap(shades), vmin=0, vmax=len(LIVING),
-                    shading="nearest", rasterized=True)
+    axes.pcolormesh(atlas["column"], atlas["row"], np.ma.masked_less(kinds, 0), cmap=ListedColormap(shades), vmin=0,
+                    vmax=len(LIVING), shading="nearest", rasterized=True)
     set_axes(axes, atlas)
     mark_curves(axes, atlas, longest)
     label_areas(axes, atlas, kinds)
@@ -106,7 +112,8 @@ def map_page(result: Result, atlas: xarray.Dataset, longest: int, points: str | 
     figure, (axes,) = new_panels(8.6, 5.6)
     draw_map(axes, atlas, longest=longest, points=points)
     longest_sought = int(atlas.attrs["max_period"])
-    entitle(figure, result, f"motions of up to {longest_sought} periods: {atlas.sizes['curve']} curves{missing_text(atlas)}")
+    entitle(figure, result,
+            f"motions of up to {longest_sought} periods: {atlas.sizes['curve']} curves{missing_text(atlas)}")
     return figure
 
 
@@ -131,11 +138,12 @@ def motions_page(result: Result, atlas: xarray.Dataset) -> Figure:
         centre = centre_of(atlas["class_name"].values[number])
         colour = style.motion_colour(int(atlas["class_period"][number]), int(atlas["class_winding"][number]), centre)
         shades = ListedColormap(["white", style.shade(colour, 0.35), colour, style.shade(colour, -0.25)])
-        axes.pcolormesh(atlas["column"], atlas["row"], np.ma.masked_where(~known, np.clip(attracting, 0, 3)), cmap=shades, vmin=0, vmax=3,
-                        shading="nearest", rasterized=True)
+        axes.pcolormesh(atlas["column"], atlas["row"], np.ma.masked_where(~known, np.clip(attracting, 0, 3)),
+                        cmap=shades, vmin=0, vmax=3, shading="nearest", rasterized=True)
         for curve in range(atlas.sizes["curve"]):
             if belongs(atlas, curve, number) or gives_birth(atlas, curve, number):
-                axes.plot(*curve_points(atlas, curve), color=style.INK, linewidth=0.7, linestyle=DASHES[int(atlas["curve_kind"][curve])])
+                axes.plot(*curve_points(atlas, curve), color=style.INK, linewidth=0.7,
+                          linestyle=DASHES[int(atlas["curve_kind"][curve])])
         set_axes(axes, atlas, labels=False)
         axes.set_title(motion_text(style.name_text(atlas["class_name"].values[number])), fontsize="medium", loc="left")
     for axes in panels[len(chosen):]:
@@ -153,7 +161,8 @@ def line_page(result: Result, atlas: xarray.Dataset, x: float | None, y: float |
     fixed, varies, value = ("y", "x", y) if y is not None else ("x", "y", middle if x is None else x)
     unit = str(atlas.attrs.get(f"{fixed}_units", "1"))
     figure, (axes,) = new_panels(8.6, 5.4)
-    scale = {which: float(atlas.attrs.get(f"{which}_written_scale", 1)) for which in "xy"}  # what the program has, of one on an axis
+    # What the program has, of one on an axis
+    scale = {which: float(atlas.attrs.get(f"{which}_written_scale", 1)) for which in "xy"}
     table = result.line(**{fixed: value * scale[fixed]})
     table["value"] /= scale[varies]
     draw_line(axes, table[table["period"] <= longest])

@@ -39,13 +39,16 @@ def centre_of(class_name: object) -> int:
 
 def belongs(atlas: xarray.Dataset, curve: int, number: int) -> bool:
     """Whether a curve is about the motion of a class."""
-    return style.name_text(atlas["curve_name"].values[curve]).rpartition(": ")[0] == style.name_text(atlas["class_name"].values[number])
+    return style.name_text(atlas["curve_name"].values[curve]).rpartition(": ")[0] == style.name_text(
+        atlas["class_name"].values[number])
 
 
 def gives_birth(atlas: xarray.Dataset, curve: int, number: int) -> bool:
     """Whether what branches off on a curve is the motion of a class."""
     kind, centre = int(atlas["curve_kind"][curve]), int(atlas["curve_centre"][curve])
     period, winding = int(atlas["curve_period"][curve]), int(atlas["curve_winding"][curve])
-    child = {DOUBLING: (2 * period, 2 * winding, False), BREAKING: (period, 0, False), SWINGS: (2, 0, True), LEANS: (1, 0, False)}.get(kind)
-    own = int(atlas["class_period"][number]), int(atlas["class_winding"][number]), bool(atlas["class_symmetric"][number])
+    child = {DOUBLING: (2 * period, 2 * winding, False), BREAKING: (period, 0, False), SWINGS: (2, 0, True),
+             LEANS: (1, 0, False)}.get(kind)
+    own = int(atlas["class_period"][number]), int(atlas["class_winding"][number]), bool(
+        atlas["class_symmetric"][number])
     return own == child and (kind != SWINGS or centre == int(atlas["class_centre"][number]))

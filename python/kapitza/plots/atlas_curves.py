@@ -11,7 +11,8 @@ from kapitza import style
 from kapitza.plots.atlas_classes import BREAKING, DOUBLING, FOLD, LEANS, SWINGS, belongs
 
 GREY = "#59626b"
-DASHES: dict[int, Any] = {FOLD: "-", DOUBLING: (0, (5, 2)), BREAKING: (0, (1.2, 1.4)), SWINGS: (0, (5, 2)), LEANS: (0, (1.2, 1.4))}
+DASHES: dict[int, Any] = {FOLD: "-", DOUBLING: (0, (5, 2)), BREAKING: (0, (1.2, 1.4)), SWINGS: (0, (5, 2)),
+                          LEANS: (0, (1.2, 1.4))}
 BOLD_UP_TO = 4  # longer cycles live in thin bands: their curves are thin
 SEEN = 1 / 110  # of the height of the map: a band that is narrower is not seen
 FIRST = 2  # zorder of the thinnest
@@ -25,7 +26,8 @@ def curve_points(atlas: xarray.Dataset, number: int) -> tuple[np.ndarray, np.nda
 
 
 def is_seen(axes: Axes, atlas: xarray.Dataset, number: int) -> np.ndarray:
-    """Whether the motion of a curve attracts on one side of each point and not on the other, so far away that readers see the band.
+    """Whether the motion of a curve attracts on one side of each point and not on the other, so far away that readers
+    see the band.
 
     Limits and scales of the axes must be set.
     """
@@ -56,8 +58,8 @@ def pieces(seen: np.ndarray) -> Iterator[tuple[slice, bool]]:
 
 
 def mark_curves(axes: Axes, atlas: xarray.Dataset, longest: int, colours: Mapping[int, str] | None = None) -> None:
-    """All curves of cycles of up to `longest` periods, grey or in `colours` (of periods); those of rest in ink. What bounds bands that
-    nobody sees is faint, and lies below. Limits and scales of the axes must be set."""
+    """All curves of cycles of up to `longest` periods, grey or in `colours` (of periods); those of rest in ink. What
+    bounds bands that nobody sees is faint, and lies below. Limits and scales of the axes must be set."""
     for number in np.argsort(-atlas["curve_period"].values, kind="stable"):
         period, kind = int(atlas["curve_period"][number]), int(atlas["curve_kind"][number])
         if period > longest:
@@ -66,6 +68,7 @@ def mark_curves(axes: Axes, atlas: xarray.Dataset, longest: int, colours: Mappin
         rest, bold = kind in (SWINGS, LEANS), period <= BOLD_UP_TO
         colour = (colours or {}).get(period, style.INK if rest else GREY)
         for piece, seen in [(slice(None), True)] if rest else pieces(is_seen(axes, atlas, number)):
-            axes.plot(x[piece], y[piece], linestyle=DASHES[kind], color=colour, linewidth=1.2 if rest else 0.6 if seen and bold else 0.25,
+            axes.plot(x[piece], y[piece], linestyle=DASHES[kind], color=colour, linewidth=1.2 if rest else 0.6 if seen
+                      and bold else 0.25,
                       alpha=1 if rest else 0.9 if seen else 0.3, zorder=4 if rest else FIRST + 0.5 * bold + 0.25 * seen,
                       solid_capstyle="round")

@@ -1,4 +1,5 @@
-"""What lives where on an atlas: the kind of motion that colours each cell, words on the largest areas, points of a file."""
+"""What lives where on an atlas: the kind of motion that colours each cell, words on the largest areas, points of a
+file."""
 
 import itertools
 from collections.abc import Mapping
@@ -34,18 +35,21 @@ def mark_points(axes: Axes, path: str) -> list[Line2D]:
         raise BadFile(f"{path}: lacks the column {sorted(missing)[0]}")
     handles = []
     for (name, rows), mark in zip(table.groupby("label", sort=False), itertools.cycle("osD^vPX*"), strict=False):
-        handles += axes.plot(rows["x"], rows["y"], mark, markersize=4.6, markerfacecolor="white", markeredgecolor=style.INK,
+        handles += axes.plot(rows["x"], rows["y"], mark, markersize=4.6, markerfacecolor="white",
+                             markeredgecolor=style.INK,
                              markeredgewidth=0.9, linestyle="", zorder=POINTS, label=str(name))
     return handles
 
 
 def living(atlas: xarray.Dataset) -> np.ndarray:
-    """For each cell the place in LIVING of the first kind of motion that attracts there; NOBODY, and -1 where the list is not known."""
+    """For each cell the place in LIVING of the first kind of motion that attracts there; NOBODY, and -1 where the list
+    is not known."""
     found = np.where(atlas["count"].values < 0, -1, NOBODY)
     names = [style.name_text(name) for name in atlas["class_name"].values]
     for kind in reversed(LIVING):
         for number, name in enumerate(names):
-            own = style.kind(int(atlas["class_period"][number]), abs(int(atlas["class_winding"][number])), centre_of(name))
+            own = style.kind(int(atlas["class_period"][number]), abs(int(atlas["class_winding"][number])),
+                             centre_of(name))
             if own == kind:
                 found[(atlas["attracting"].values[number] > 0) & (found >= 0)] = list(LIVING).index(kind)
     return found
@@ -53,7 +57,8 @@ def living(atlas: xarray.Dataset) -> np.ndarray:
 
 def kind_colours(colours: Mapping[str, str]) -> list[str]:
     """A light colour for each kind of LIVING and for NOBODY: curves and words stay readable on it."""
-    chosen = {"inverted": 0, "down": 0} | dict.fromkeys(("flutter", "inverted nodding", "down nodding", "rotation +", "other"), 0.55)
+    chosen = {"inverted": 0, "down": 0} | dict.fromkeys(("flutter", "inverted nodding", "down nodding", "rotation +",
+                                                         "other"), 0.55)
     return [colours.get(kind) or style.shade(style.KINDS[kind], chosen[kind]) for kind in LIVING] + ["white"]
 
 
@@ -67,4 +72,5 @@ def label_areas(axes: Axes, atlas: xarray.Dataset, kinds: np.ndarray) -> None:
             far = distance_transform_edt(np.pad(largest, 1))[1:-1, 1:-1]
             room.append((far.max(), text, np.unravel_index(np.argmax(far), far.shape)))
     for _, text, (row, column) in sorted(room, reverse=True)[:LABELS]:
-        axes.text(float(atlas["column"][column]), float(atlas["row"][row]), text, ha="center", va="center", color=style.INK, zorder=8)
+        axes.text(float(atlas["column"][column]), float(atlas["row"][row]), text, ha="center", va="center",
+                  color=style.INK, zorder=8)

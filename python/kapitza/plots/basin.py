@@ -2,8 +2,10 @@
 
     kapitza plot basin blackburn-fig12.h5                              every basin in its colour
     kapitza plot basin blackburn-fig12.h5 --attractor inverted         one basin, black on white, as the papers print it
-    kapitza plot basin blackburn-fig12.h5 --quantity settling_time     how long every start takes until its end is certain
-    kapitza plot basin hubbard.h5 --quantity turns                     how often every start turns round before it ends (basin.turns)
+    kapitza plot basin blackburn-fig12.h5 --quantity settling_time
+        how long every start takes until its end is certain
+    kapitza plot basin hubbard.h5 --quantity turns
+        how often every start turns round before it ends (basin.turns)
 """
 
 import argparse
@@ -38,15 +40,19 @@ PAGE_WIDTH, PLANE_WIDTH, TITLES = 7.6, 5.3, 0.9  # inches, nearly the same in ev
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quantity", choices=["attractor", "settling_time", "turns", "evidence", "common"],
-                        help="turns: net turns until the end, of basin.turns; common: the attractor that a cell reaches at all of "
+                        help="turns: net turns until the end, of basin.turns; common: the attractor that a cell "
+                             "reaches at all of "
                         "basin.phases")
-    parser.add_argument("--attractor", metavar="ID|NAME", help="black and white: the basin of one attractor, or of all of one name")
+    parser.add_argument("--attractor", metavar="ID|NAME",
+                        help="black and white: the basin of one attractor, or of all of one name")
     parser.add_argument("--centre", choices=["down", "inverted"],
                         help="state in the middle of a whole-circle picture (default: down)")
-    parser.add_argument("--saddles", action="store_true", help="mark the unstable cycles of the study saddles by crosses")
+    parser.add_argument("--saddles", action="store_true",
+                        help="mark the unstable cycles of the study saddles by crosses")
     parser.add_argument("--manifolds", action="store_true",
                         help="draw the manifolds of the study manifolds: stable ones black, unstable ones white")
-    parser.add_argument("--points", metavar="CSV", help="measured releases with the columns theta (or theta_deg), velocity (or "
+    parser.add_argument("--points", metavar="CSV",
+                        help="measured releases with the columns theta (or theta_deg), velocity (or "
                         "velocity_rad_per_s) and end; circles agree with the basin, crosses do not")
     parser.add_argument("--shade", action="store_true", help="darken cells whose end is certain late")
     parser.add_argument("--degrees", action="store_true", help="angles in degrees instead of parts of pi")
@@ -62,7 +68,8 @@ def chosen_ids(result: Result, attractors: xarray.Dataset, wanted: str) -> list[
     if not ids and wanted.lstrip("-").isdigit() and 0 <= int(wanted) < len(names):
         ids = [int(wanted)]
     if not ids:
-        raise BadFile(f"{result.path}: has no attractor {wanted}; it has 0..{len(names) - 1}: {', '.join(dict.fromkeys(names))}")
+        raise BadFile(
+            f"{result.path}: has no attractor {wanted}; it has 0..{len(names) - 1}: {', '.join(dict.fromkeys(names))}")
     return ids
 
 
@@ -90,17 +97,20 @@ def _slowness(periods: np.ndarray) -> np.ndarray:
     return np.clip((time - middle) / max(last - middle, 1e-300), 0, 1)
 
 
-def basin_entries(attractors: xarray.Dataset, colours: Sequence[str], labels: np.ndarray) -> list[tuple[str, str, float]]:
-    """Legend entries (colour, name, share) of the basins that have cells here, largest first; the unsettled cells last."""
+def basin_entries(attractors: xarray.Dataset, colours: Sequence[str],
+                  labels: np.ndarray) -> list[tuple[str, str, float]]:
+    """Legend entries (colour, name, share) of the basins that have cells here, largest first; the unsettled cells
+    last."""
     entries = [(colour, name, float(np.mean(labels == index)))
-               for index, (name, colour) in enumerate(zip(style.names_with_ids(attractors["name"].values), colours, strict=True))]
+               for index, (name, colour) in enumerate(zip(style.names_with_ids(attractors["name"].values), colours,
+                                                          strict=True))]
     entries.sort(key=lambda entry: -entry[2])
     entries.append((style.UNSETTLED, "not settled", float(np.mean(labels < 0))))
     return [entry for entry in entries if entry[2] > 0]
 
 
-def draw_one(axes: Axes, basin: xarray.Dataset, attractors: xarray.Dataset, ids: Sequence[int], *, colour: str = "black",
-             legend: bool = True, centre: str = "down", dots: bool = True) -> Axes:
+def draw_one(axes: Axes, basin: xarray.Dataset, attractors: xarray.Dataset, ids: Sequence[int], *,
+             colour: str = "black", legend: bool = True, centre: str = "down", dots: bool = True) -> Axes:
     """The basins of the ids in one colour on white, their strobe points as open rings."""
     plane, mine = Plane(basin, centre), np.isin(basin["attractor"].values, ids)
     plane.show(axes, np.where(mine[:, plane.order, None], to_rgb(colour), to_rgb("white")))
@@ -120,7 +130,8 @@ def draw_settling_time(axes: Axes, basin: xarray.Dataset, *, colours: Colormap |
                        norm=LogNorm(one, max(2 * one, time.max() if time.count() else 0)))
     if legend:
         bar = axes.figure.colorbar(image, cax=axes.inset_axes((1.02, 0, 0.025, 1)))
-        bar.set_label("certain after (drive periods, plus one)" if one == 1 else "certain after (s, plus one drive period)")
+        bar.set_label("certain after (drive periods, plus one)" if one == 1
+                      else "certain after (s, plus one drive period)")
         bar.outline.set_linewidth(0.7)
     return label_axes(axes, plane)
 
@@ -134,13 +145,15 @@ def draw_evidence(axes: Axes, basin: xarray.Dataset, *, colours: Sequence[str] =
     words = str(basin["evidence"].attrs["flag_meanings"]).split()
     if legend:
         write_legend(axes, [(colour, word.replace("_", " "), float(np.mean(evidence == code)))
-                            for code, (colour, word) in enumerate(zip(colours, words, strict=False)) if np.any(evidence == code)])
+                            for code, (colour, word) in enumerate(zip(colours, words, strict=False))
+                            if np.any(evidence == code)])
     return label_axes(axes, plane)
 
 
 def draw_common(axes: Axes, basin: xarray.Dataset, attractors: xarray.Dataset, phases: xarray.Dataset, *,
                 colours: Sequence[str] | None = None, legend: bool = True, centre: str = "down") -> Axes:
-    """What a cell reaches at every phase of release, in the colours of the basins; other cells as the unsettled ones."""
+    """What a cell reaches at every phase of release, in the colours of the basins; other cells as the unsettled
+    ones."""
     common, colours = phases["common"].values, colours or style.colours(attractors)
     plane = basin.assign(attractor=basin["attractor"].copy(data=common))
     draw_basins(axes, plane, attractors, colours=colours, legend=False, centre=centre, dots=False)
@@ -156,9 +169,10 @@ def write_legend(axes: Axes, entries: Sequence[tuple[str, str, float]]) -> Axes:
     digits = max((share.find(".") if "." in share else share.find(" ") for share in shares), default=0)
     patches = [Patch(facecolor=colour, edgecolor=style.INK, linewidth=0.5, label=style.name_text(name))
                for colour, name, _ in entries]
-    columns = [Line2D([], [], linestyle="", label=style.FIGURE_SPACE * (digits - max(share.find("."), 1)) + share) for share in shares]
-    legend = axes.legend(handles=[*patches, *columns], ncols=2, loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0,
-                         handlelength=1.1, handleheight=1.1, columnspacing=-0.2, fontsize="small")
+    columns = [Line2D([], [], linestyle="", label=style.FIGURE_SPACE * (digits - max(share.find("."), 1)) + share)
+               for share in shares]
+    legend = axes.legend(handles=[*patches, *columns], ncols=2, loc="upper left", bbox_to_anchor=(1.01, 1.0),
+                         borderaxespad=0, handlelength=1.1, handleheight=1.1, columnspacing=-0.2, fontsize="small")
     legend.set_gid(style.WITH_SHARES)
     return axes
 
@@ -169,7 +183,8 @@ def _method(basin: xarray.Dataset) -> str:
     return words.get(method, method)
 
 
-def draw(result: Result, *, quantity: str = "attractor", attractor: int | str | None = None, centre: str = "down", saddles: bool = False,
+def draw(result: Result, *, quantity: str = "attractor", attractor: int | str | None = None, centre: str = "down",
+         saddles: bool = False,
          manifolds: bool = False, points: Any = None, shade: bool = False, degrees: bool = False, si: bool = False,
          no_dots: bool = False) -> Figure:
     """The page: one plane, and what is asked about it."""
@@ -178,7 +193,8 @@ def draw(result: Result, *, quantity: str = "attractor", attractor: int | str | 
     group = partial(result.group, si=si, degrees=degrees, written=True)
     basin, attractors = group("basin"), group("attractors")
     labels = basin["attractor"].values
-    if labels.size == 0 or labels.dtype.kind not in "iu" or not -1 <= labels.min() <= labels.max() < attractors.sizes["attractor"]:
+    if labels.size == 0 or labels.dtype.kind not in "iu" or not -1 <= labels.min() <= labels.max() < attractors.sizes[
+        "attractor"]:
         raise BadFile(f"{result.path}: is damaged: some cells have ids of attractors that the file does not list")
     plane = Plane(basin, centre)
     figure, (axes,) = new_panels(PAGE_WIDTH, PLANE_WIDTH * plane.shape + TITLES)
@@ -214,12 +230,14 @@ def draw(result: Result, *, quantity: str = "attractor", attractor: int | str | 
 
 
 def mark_releases(axes: Axes, plane: Plane, result: Result, table: Any) -> Axes:
-    """Measured releases: circles where the basin says the same, crosses where it does not, in the colours of the ends that were seen."""
+    """Measured releases: circles where the basin says the same, crosses where it does not, in the colours of the ends
+    that were seen."""
     try:
         found = result.agree(table).table
     except (OSError, ValueError) as error:
         raise BadFile(f"{'points' if hasattr(table, 'columns') else table}: {error}") from error
-    colours: dict[str, str] = dict(zip(result.attractors["name"], style.colours(result.group("attractors")), strict=True))
+    colours: dict[str, str] = dict(zip(result.attractors["name"], style.colours(result.group("attractors")),
+                                       strict=True))
     centres: dict[str, str] = dict(zip(result.attractors["centre"], colours.values(), strict=False))
     for agrees, mark, gid in ((True, "o", "agree"), (False, "X", "differ")):
         places: list[np.ndarray] = []
@@ -230,14 +248,17 @@ def mark_releases(axes: Axes, plane: Plane, result: Result, table: Any) -> Axes:
             faces += [colours.get(row["measured"], centres.get(row["measured"], style.UNSETTLED))] * len(points)
         if faces:
             theta, velocity = np.vstack(places).T
-            axes.scatter(theta, velocity, s=38, marker=mark, c=faces, edgecolors=style.INK, linewidths=1.1, zorder=6, gid=gid)
+            axes.scatter(theta, velocity, s=38, marker=mark, c=faces, edgecolors=style.INK, linewidths=1.1, zorder=6,
+                         gid=gid)
     return axes
 
 
-def mark_attractors(axes: Axes, plane: Plane, basin: xarray.Dataset, attractors: xarray.Dataset, ids: Sequence[int]) -> None:
+def mark_attractors(axes: Axes, plane: Plane, basin: xarray.Dataset, attractors: xarray.Dataset,
+                    ids: Sequence[int]) -> None:
     """The strobe points: white rings of the attractors `ids`, or dots of all in darker shades of their basins."""
     if ids:
         mark_strobe_points(axes, plane, basin, attractors, colours=dict.fromkeys(ids, "white"), edge="black")
     else:
         mark_strobe_points(axes, plane, basin, attractors,
-                           colours={index: style.shade(colour, -0.45) for index, colour in enumerate(style.colours(attractors))})
+                           colours={index: style.shade(colour, -0.45) for index,
+                                    colour in enumerate(style.colours(attractors))})

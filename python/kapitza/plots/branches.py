@@ -16,9 +16,10 @@ NAMED = 0.02  # branches whose share is smaller everywhere are drawn as one band
 SHORTEST = 1 / 400  # of the range: shorter branches cannot be seen
 INTERVALS = 12  # values, about, at which intervals of shares are drawn
 # Code of what happens at an end of a branch -> its mark and name.
-ENDS = {1: ("|", "fold"), 2: ("D", "period doubling"), 3: ("*", "Neimark-Sacker"), 4: ("s", "symmetry breaking"), 5: ("x", "not located"),
-        6: ("o", "homoclinic")}
-SYMBOLS = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitude": r"$\epsilon$", "damping": r"$\beta$"}
+ENDS = {1: ("|", "fold"), 2: ("D", "period doubling"), 3: ("*", "Neimark-Sacker"), 4: ("s", "symmetry breaking"),
+        5: ("x", "not located"), 6: ("o", "homoclinic")}
+SYMBOLS = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitude": r"$\epsilon$",
+           "damping": r"$\beta$"}
 
 
 def parameter_text(sweep: xarray.Dataset) -> str:
@@ -30,18 +31,21 @@ def parameter_text(sweep: xarray.Dataset) -> str:
 def motions(sweep: xarray.Dataset) -> list[tuple[int, int, int, bool]]:
     """(period, winding, centre, whether the second of two mirror partners) of every branch."""
     columns = (sweep[f"branch_{name}"].values for name in ("period", "winding", "centre", "mirror"))
-    return [(int(period), int(winding), int(centre), bool(-1 < mirror < branch)) for branch, (period, winding, centre, mirror)
+    return [(int(period), int(winding), int(centre), bool(-1 < mirror < branch)) for branch,
+            (period, winding, centre, mirror)
             in enumerate(zip(*columns, strict=True))]
 
 
 def branch_colours(sweep: xarray.Dataset, named: Iterable[int] | None = None) -> list[str]:
-    """One colour per branch: branches of one motion share it, however far apart they live; those of `named` can be distinguished."""
+    """One colour per branch: branches of one motion share it, however far apart they live; those of `named` can be
+    distinguished."""
     kinds, attracting = motions(sweep), attracting_branches(sweep)
     firsts = sorted({kinds[branch]: branch for branch in reversed(attracting)}.values())
     dimension = sweep["branch_period"].dims
     table = xarray.Dataset({name: (dimension, [kinds[branch][column] for branch in firsts])
                             for column, name in enumerate(("period", "winding", "centre"))})
-    table["mirror"] = dimension, [-2 if kinds[branch][3] else len(firsts) for branch in firsts]  # of a second partner: before all
+    # Of a second partner: before all
+    table["mirror"] = dimension, [-2 if kinds[branch][3] else len(firsts) for branch in firsts]
     wanted = None if named is None else {kinds[one] for one in named}
     apart = None if wanted is None else [row for row, branch in enumerate(firsts) if kinds[branch] in wanted]
     colour = dict(zip((kinds[branch] for branch in firsts), style.colours(table, apart), strict=True))
@@ -54,7 +58,8 @@ def attracting_branches(sweep: xarray.Dataset) -> list[int]:
         return list(range(sweep.sizes["branch"]))
     seen = np.isfinite(sweep["branch_theta"].values).any(axis=0)
     length = sweep["branch_end"].values - sweep["branch_start"].values
-    return list(np.flatnonzero((sweep["branch_stable"].values == 1) & (seen | (length > SHORTEST * np.ptp(sweep["value"].values)))))
+    return list(np.flatnonzero((sweep["branch_stable"].values == 1)
+                               & (seen | (length > SHORTEST * np.ptp(sweep["value"].values)))))
 
 
 def repelling_beside(sweep: xarray.Dataset, order: Sequence[int]) -> list[tuple[int, int]]:
@@ -78,13 +83,15 @@ def named_branches(sweep: xarray.Dataset) -> list[int]:
     return [branch for branch in stack_order(sweep) if share[:, branch].max() > NAMED]
 
 
-def draw_shares(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | None = None, legend: bool = True) -> Axes:
+def draw_shares(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | None = None,
+                legend: bool = True) -> Axes:
     """Shares stacked over the parameter, with their intervals; `colours`: one per branch (default: branch_colours)."""
     value, share, named = sweep["value"].values, np.nan_to_num(sweep["fraction"].values), named_branches(sweep)
     small = [branch for branch in attracting_branches(sweep) if branch not in named]
     colours = colours or branch_colours(sweep, named)
     bands = np.column_stack([share[:, named], share[:, small].sum(axis=1)])
-    axes.stackplot(value, bands.T, colors=[*(colours[branch] for branch in named), style.FAINT], edgecolor="white", linewidth=0.25)
+    axes.stackplot(value, bands.T, colors=[*(colours[branch] for branch in named), style.FAINT], edgecolor="white",
+                   linewidth=0.25)
     bars = _draw_intervals(axes, sweep, named, np.cumsum(bands, axis=1) - bands)
     axes.set(ylim=(0, 1), xlabel=parameter_text(sweep), ylabel="share of the starts")
     if legend:
@@ -92,19 +99,24 @@ def draw_shares(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | N
         if bands.sum(axis=1).min() < 1 - NAMED:
             entries.append(Patch(facecolor="white", edgecolor=style.FAINT, lw=0.5, label="not settled"))
         if bands[:, -1].any():
-            entries.append(Patch(color=style.FAINT, label=f"{len(small)} smaller ones (≤ {style.share_text(bands[:, -1].max())})"))
+            entries.append(Patch(color=style.FAINT,
+                                 label=f"{len(small)} smaller ones (≤ {style.share_text(bands[:, -1].max())})"))
         entries += [*_entries(sweep, colours, named[::-1]), *bars]
         axes.legend(handles=entries, loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.4, labelspacing=0.35)
     return axes
 
 
-def _draw_intervals(axes: Axes, sweep: xarray.Dataset, branches: Sequence[int], base: np.ndarray) -> list[ErrorbarContainer]:
-    """Where the upper edge of every band could lie: its own share's interval above its lower edge. Returns the legend's entries."""
+def _draw_intervals(axes: Axes, sweep: xarray.Dataset, branches: Sequence[int],
+                    base: np.ndarray) -> list[ErrorbarContainer]:
+    """Where the upper edge of every band could lie: its own share's interval above its lower edge. Returns the legend's
+    entries."""
     drawn, some = [], slice(None, None, max(1, sweep.sizes["value"] // INTERVALS))
     for row, branch in enumerate(branches):
         share, low, high = (sweep[name].values[some, branch] for name in ("fraction", "fraction_low", "fraction_high"))
-        drawn.append(axes.errorbar(sweep["value"].values[some], base[some, row] + share, [share - low, high - share], fmt="none",
-                                   ecolor=style.INK, elinewidth=0.7, capsize=1.5, capthick=0.7, label="95 % interval of a share"))
+        drawn.append(axes.errorbar(sweep["value"].values[some], base[some, row] + share, [share - low, high - share],
+                                   fmt="none",
+                                   ecolor=style.INK, elinewidth=0.7, capsize=1.5, capthick=0.7,
+                                   label="95 % interval of a share"))
     return drawn[:1]
 
 
@@ -123,13 +135,15 @@ def _entries(sweep: xarray.Dataset, colours: Sequence[str], branches: Iterable[i
     for branch in branches:
         groups.setdefault((str(sweep["branch_name"].values[branch]), colours[branch]), []).append(branch)
     names = [name for name, _ in groups]
-    return [Patch(color=colour, label=style.name_text(name) + (f" ({', '.join(map(str, sorted(ids)))})" if names.count(name) > 1 else ""))
+    return [Patch(color=colour, label=style.name_text(name) + (f" ({', '.join(map(str, sorted(ids)))})"
+                                                               if names.count(name) > 1 else ""))
             for (name, colour), ids in groups.items()]
 
 
 def draw_lives(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | None = None, legend: bool = True,
                names: bool = False, only: Sequence[int] | None = None) -> Axes:
-    """A line from birth to death of each branch that attracts, with what happens there; dashed, what it turns into where it repels.
+    """A line from birth to death of each branch that attracts, with what happens there; dashed, what it turns into
+    where it repels.
 
     `names`: each branch's name beside it; `only`: of these branches, in this order."""
     colours, order = colours or branch_colours(sweep), stack_order(sweep) if only is None else list(only)
@@ -139,7 +153,8 @@ def draw_lives(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | No
         for place, kind in ((start, "branch_start_kind"), (end, "branch_end_kind")):
             code = int(sweep[kind].values[branch])
             if code in ENDS:
-                axes.plot(place[branch], row, ENDS[code][0], color=style.INK, markersize=3.4, markeredgewidth=0.9, zorder=3)
+                axes.plot(place[branch], row, ENDS[code][0], color=style.INK, markersize=3.4, markeredgewidth=0.9,
+                          zorder=3)
     repelling = repelling_beside(sweep, order)
     for row, branch in repelling:
         axes.plot([start[branch], end[branch]], [row, row], color=colours[order[row]], lw=0.9, ls=(0, (3, 2)), zorder=1)

@@ -1,6 +1,7 @@
 """Draws the basins of two results side by side, and where they differ.
 
-    kapitza plot compare ONE.h5 OTHER.h5                           attractors matched by their strobe points, in the colours of the first
+    kapitza plot compare ONE.h5 OTHER.h5
+        attractors matched by their strobe points, in the colours of the first
     kapitza plot compare ONE.h5 OTHER.h5 --centre inverted --width 178mm
 """
 
@@ -42,8 +43,8 @@ def matched_colours(comparison: Comparison) -> tuple[list[str], list[str]]:
     return first, second
 
 
-def draw_differing(axes: Axes, comparison: Comparison, *, colours: str = DIFFERENT, legend: bool = True, centre: str = "down",
-                   si: bool = False) -> Axes:
+def draw_differing(axes: Axes, comparison: Comparison, *, colours: str = DIFFERENT, legend: bool = True,
+                   centre: str = "down", si: bool = False) -> Axes:
     """The cells that end elsewhere, in one colour on white; `legend`: with their share; `si`: velocities in rad/s."""
     cells = in_units(comparison.cells, comparison.first.pivot_frequency) if si else comparison.cells
     plane, differing = Plane(cells, centre), comparison.differing.values
@@ -59,19 +60,22 @@ def comparison_panels(comparison: Comparison, centre: str, si: bool = False) -> 
     narrow = current().narrow
     figure, panels = (new_panels(6.4, 3 * 4.0 * plane.shape + 1.2, 3, sharex=True) if narrow else
                       new_panels(14.0, 4.0 * plane.shape + 1.2, 1, 3, sharey=True))
-    for axes, result, colours in zip(panels, (comparison.first, comparison.second), matched_colours(comparison), strict=False):
+    for axes, result, colours in zip(panels, (comparison.first, comparison.second), matched_colours(comparison),
+                                     strict=False):
         basin, attractors = result.group("basin", si=si), result.group("attractors", si=si)
         draw_basins(axes, basin, attractors, colours=colours, centre=centre, legend=False, dots=False)
         axes.set_title(_difference(result, comparison), fontsize="medium", fontweight="normal", parse_math=False)
     draw_differing(panels[2], comparison, centre=centre, legend=False, si=si)
-    panels[2].set_title(f"{style.share_text(comparison.differing_share)} end elsewhere", fontsize="medium", fontweight="normal")
+    panels[2].set_title(f"{style.share_text(comparison.differing_share)} end elsewhere", fontsize="medium",
+                        fontweight="normal")
     for axes in panels[1:] if not narrow else ():
         axes.set_ylabel("")
     for axes in panels[:-1] if narrow else ():
         axes.set_xlabel("")
     _write_both(panels[-1], comparison)
     entitle(figure, comparison.first, "shares of the starts: first → second")
-    if comparison.first.title != comparison.second.title and isinstance(figure, Picture) and figure.heading and not current().heading:
+    if comparison.first.title != comparison.second.title and isinstance(
+        figure, Picture) and figure.heading and not current().heading:
         figure.heading.set_text(f"{title_text(comparison.first)} → {title_text(comparison.second)}")
     return figure
 
@@ -87,17 +91,21 @@ def _write_both(axes: Axes, comparison: Comparison) -> None:
         colour = (first if mine else second)[index]
         shares = f"{style.share_text(row['fraction_first'])} → {style.share_text(row['fraction_second'])}"
         name = row["name"] if list(rows["name"]).count(row["name"]) == 1 else f"{row['name']} ({index})"
-        patches.append(Patch(facecolor=colour, edgecolor=style.INK, linewidth=0.5, label=f"{style.name_text(name)} {shares}"))
+        patches.append(Patch(facecolor=colour, edgecolor=style.INK, linewidth=0.5,
+                             label=f"{style.name_text(name)} {shares}"))
     axes.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
 
 
 def _difference(result: Result, comparison: Comparison) -> str:
     """What of the pendulum tells this result from the other one; else its title."""
     pair = comparison.first.pendulum, comparison.second.pendulum
-    known = [key for key in ("drive_amplitude", "drive_frequency", "quality_factor", "m", "k", "beta") if key in result.pendulum]
+    known = [key for key in ("drive_amplitude", "drive_frequency", "quality_factor", "m", "k", "beta")
+             if key in result.pendulum]
     papers = [key for key in known if key in ("drive_amplitude", "drive_frequency", "quality_factor")] or known
-    words = [f"{key.replace('_', ' ')} {result.pendulum[key]:.6g}" for key in papers if pair[0].get(key) != pair[1].get(key)]
-    return ", ".join(words) or (title_text(result) if comparison.first.title != comparison.second.title else str(result.path.name))
+    words = [f"{key.replace('_', ' ')} {result.pendulum[key]:.6g}" for key in papers
+             if pair[0].get(key) != pair[1].get(key)]
+    return ", ".join(words) or (title_text(result) if comparison.first.title != comparison.second.title
+                                else str(result.path.name))
 
 
 def draw(result: Result, *, other: Result | str, centre: str = "down", si: bool = False) -> Figure:
@@ -105,7 +113,8 @@ def draw(result: Result, *, other: Result | str, centre: str = "down", si: bool 
     comparison = result.compare(other)
     files = f"{result.path}, {comparison.second.path}"
     if si and result.pivot_frequency != comparison.second.pivot_frequency:
-        raise BadFile(f"{files}: their pivots have different frequencies, so that a cell is not the same start in rad/s; leave out --si")
+        raise BadFile(f"{files}: their pivots have different frequencies, so that a cell is not the same start in "
+                      "rad/s; leave out --si")
     try:
         comparison.differing  # noqa: B018  # which needs one window
     except ValueError as error:

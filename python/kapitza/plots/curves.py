@@ -15,27 +15,30 @@ COLOURS = ["#12806a", "#2f6db3", "#5b2a7a", "#c2452f", "#b08a1e", "#3b3f45"]
 
 # Formula -> the exact curve that it approximates; subharmonics and upper branches by rule.
 EXACT = {
-    "blackburn_lower": "exact_1", "blackburn_upper": "exact_2", "blackburn_upper_note": "exact_2", "blackburn_tangent": "exact_2",
-    "blackburn_down_upper": "exact_2",
+    "blackburn_lower": "exact_1", "blackburn_upper": "exact_2", "blackburn_upper_note": "exact_2",
+    "blackburn_tangent": "exact_2", "blackburn_down_upper": "exact_2",
     "butikov_4_refined": "exact_4", "butikov_5_refined": "exact_5", "butikov_5_refined_upper": "exact_5_upper",
     **{f"meissner_{number}": f"hill_{number}" for number in range(1, 6)},
 }
 LABELS = {
-    "butikov_1": "Butikov Eq. 3", "butikov_2": "Butikov Eq. 4", "butikov_3": "Butikov Eq. 5", "butikov_4": "Butikov Eq. 6",
+    "butikov_1": "Butikov Eq. 3", "butikov_2": "Butikov Eq. 4", "butikov_3": "Butikov Eq. 5",
+    "butikov_4": "Butikov Eq. 6",
     "butikov_5": "Butikov Eq. 7", "butikov_4_refined": "Butikov Eq. 17", "butikov_5_refined": "Butikov Eq. 19",
     "butikov_damped_1": "Butikov Eq. 25", "butikov_damped_2": "Butikov Eq. 26",
     **{f"meissner_{number}": f"square wave, curve {number}" for number in range(1, 6)},
-    "blackburn_lower": "Blackburn Eq. 5", "blackburn_upper": "Blackburn Eq. 6", "blackburn_upper_note": "Blackburn note 13",
-    "blackburn_tangent": "tangent at k = 1/4",
+    "blackburn_lower": "Blackburn Eq. 5", "blackburn_upper": "Blackburn Eq. 6",
+    "blackburn_upper_note": "Blackburn note 13", "blackburn_tangent": "tangent at k = 1/4",
     "blackburn_down_upper": "Blackburn Eq. 6, down",
 }
 # What a curve bounds; the numbers are Butikov's.
-CURVES = {1: "curve 1: inverted stands above it", 2: "curve 2: first tongue, left edge", 3: "curve 3: first tongue, right edge",
+CURVES = {1: "curve 1: inverted stands above it", 2: "curve 2: first tongue, left edge",
+          3: "curve 3: first tongue, right edge",
           4: "curve 4: second tongue, left edge", 5: "curve 5: second tongue, right edge"}
 SUBHARMONICS = {2: 2, 3: 5, 4: 3, 6: 4}  # order -> colour, no two alike
 K_LABEL, M_LABEL = "gravity k (negative about inverted)", "drive amplitude m"
 A_LABEL, Q_LABEL = "a, static field (4 k)", "q, alternating field (2 m)"
-KNOWN = re.compile(r"((butikov_)?(subharmonic|damped)|exact|hill|meissner|butikov)_\d+(_refined)?(_upper)?|blackburn_\w+")
+KNOWN = re.compile(
+    r"((butikov_)?(subharmonic|damped)|exact|hill|meissner|butikov)_\d+(_refined)?(_upper)?|blackburn_\w+")
 
 
 def curve_names(chart: xarray.Dataset, *along: str) -> list[str]:
@@ -45,7 +48,8 @@ def curve_names(chart: xarray.Dataset, *along: str) -> list[str]:
 
 
 def axes_of(chart: xarray.Dataset) -> tuple[float, float, str, str]:
-    """By what k and m are multiplied in a picture, and what its axes are: those of ion traps, where the scene has given them."""
+    """By what k and m are multiplied in a picture, and what its axes are: those of ion traps, where the scene has given
+    them."""
     return (4, 2, A_LABEL, Q_LABEL) if "a" in chart else (1, 1, K_LABEL, M_LABEL)
 
 
@@ -119,8 +123,8 @@ def is_branch(chart: xarray.Dataset, name: str) -> bool:
 
 def draw_curves(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str] | None = None, legend: bool = True,
                 zones: Sequence[Artist] = ()) -> Axes:
-    """Exact curves solid, formulas dashed, undamped ones faint where damped ones stand beside them. `colours`: by name of the
-    curve (default: family); `zones`: further entries of the legend."""
+    """Exact curves solid, formulas dashed, undamped ones faint where damped ones stand beside them. `colours`: by name
+    of the curve (default: family); `zones`: further entries of the legend."""
     names = [name for name in curve_names(chart) if not is_branch(chart, name)]
     damped = any(name.startswith("damped") for name in names)
     across, up, *_ = axes_of(chart)
@@ -129,9 +133,11 @@ def draw_curves(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str]
         k, m = whole_curve(chart, name)
         axes.plot(across * k, up * m, color=(colours or {}).get(name, style.FAINT if faint else family(name)),
                   linestyle=(0, (1, 1.2)) if "refined" in name else (0, (4, 2)) if formula else "-",
-                  linewidth=0.7 if faint else 1.3 if formula else 1.6, label=_entry(chart, name) + (", undamped" if faint else ""))
+                  linewidth=0.7 if faint else 1.3 if formula else 1.6,
+                  label=_entry(chart, name) + (", undamped" if faint else ""))
     if names and legend:
-        axes.legend(handles=[*_entries(axes, names, damped), *zones], loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
+        axes.legend(handles=[*_entries(axes, names, damped), *zones], loc="upper left", bbox_to_anchor=(1.01, 1),
+                    fontsize="small")
     return axes
 
 

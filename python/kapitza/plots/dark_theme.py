@@ -18,8 +18,8 @@ READABLE = 0.64  # least lightness of lines and letters
 
 
 def turned(colours: Any, least: float = PAPER) -> np.ndarray:
-    """Colours (anything that matplotlib takes) for dark paper, [n, 4]; `least`: their least lightness in OKLab. Pale areas are farther from
-    dark paper than they were from white, because the eye sees less there."""
+    """Colours (anything that matplotlib takes) for dark paper, [n, 4]; `least`: their least lightness in OKLab. Pale
+    areas are farther from dark paper than they were from white, because the eye sees less there."""
     rgba = to_rgba_array(colours)
     lab = style.oklab(rgba[:, :3])
     lab[:, 0] = np.clip(PAPER + 0.95 * np.clip(1 - lab[:, 0], 0, 1) ** 0.8, least, 0.95)
@@ -46,7 +46,8 @@ def turn_text(text: Text) -> None:
 
 
 def darken(figure: Figure) -> None:
-    """Turns the colours of a finished figure: areas and markers by their lightness, lines and letters so that they are read."""
+    """Turns the colours of a finished figure: areas and markers by their lightness, lines and letters so that they are
+    read."""
     figure.draw_without_rendering()  # ticks are made
     for artist in figure.findobj():
         if isinstance(artist, Line2D):

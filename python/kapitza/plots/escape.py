@@ -19,7 +19,8 @@ PATH, SADDLE, TORQUE = style.INK, style.KINDS["rotation -"], style.KINDS["rotati
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--attractor", metavar="ID|NAME", help="which motion is left; default: the first one with a path")
+    parser.add_argument("--attractor", metavar="ID|NAME",
+                        help="which motion is left; default: the first one with a path")
     parser.add_argument("--into", metavar="ID|NAME", help="into which basin; default: out of its own")
 
 
@@ -48,13 +49,16 @@ def _number(result: Result, wanted: str) -> int:
     return found[0]
 
 
-def draw_plane(axes: Axes, result: Result, way: int, *, colours: tuple[str, str] = (PATH, SADDLE), legend: bool = True) -> Axes:
-    """The path in units of pi and rad per drive radian; its strobe points, and those of both cycles. Colours: of path and saddle."""
+def draw_plane(axes: Axes, result: Result, way: int, *, colours: tuple[str, str] = (PATH, SADDLE),
+               legend: bool = True) -> Axes:
+    """The path in units of pi and rad per drive radian; its strobe points, and those of both cycles. Colours: of path
+    and saddle."""
     escape = result.group("escape").isel(point=result.group("escape")["path"].values == way)
     theta, velocity, time = (escape[name].values for name in ("theta", "velocity", "time"))
     strobe = np.isclose(time, np.round(time))
     axes.plot(theta / np.pi, velocity, color=colours[0], linewidth=0.7)
-    axes.plot(theta[strobe] / np.pi, velocity[strobe], "o", markersize=2.5, color=colours[0], label="path, at each strobe")
+    axes.plot(theta[strobe] / np.pi, velocity[strobe], "o", markersize=2.5, color=colours[0],
+              label="path, at each strobe")
     ends = (("attractors", "from", "s", colours[0], theta[0]), ("saddles", "saddle", "D", colours[1], theta[-1]))
     for group, variable, marker, colour, near in ends:
         table, number = result.group(group), int(escape[variable].values[way])
@@ -74,7 +78,8 @@ def draw_torque(axes: Axes, result: Result, way: int, *, colours: tuple[str] = (
     escape = result.group("escape")
     here = escape["path"].values == way
     axes.axhline(0, color=style.FAINT, linewidth=0.6)
-    axes.plot(escape["time"].values[here], escape["torque"].values[here], color=colours[0], linewidth=0.9, label="torque")
+    axes.plot(escape["time"].values[here], escape["torque"].values[here], color=colours[0], linewidth=0.9,
+              label="torque")
     if legend:
         axes.legend(fontsize="small")
     axes.set_xlabel("drive periods")

@@ -18,8 +18,8 @@ def draw_amplitude(axes: Axes, flutter: xarray.Dataset, *, colours: str = FLUTTE
     onset = flutter.attrs["onset"]
     axes.axvline(onset, color=style.FAINT, lw=0.8, ls="--")
     if legend:
-        axes.annotate(f"multiplier −1 at {onset:.9g}", (onset, axes.get_ylim()[1]), (4, -12), textcoords="offset points",
-                      fontsize="small", color=style.FAINT)
+        axes.annotate(f"multiplier −1 at {onset:.9g}", (onset, axes.get_ylim()[1]), (4, -12),
+                      textcoords="offset points", fontsize="small", color=style.FAINT)
     return axes
 
 

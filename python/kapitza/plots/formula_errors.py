@@ -18,7 +18,8 @@ def errors_of(chart: xarray.Dataset) -> dict[tuple[str, str], np.ndarray]:
     """(formula, exact curve) -> relative error of m over k; NaN where either is not known."""
     pairs = [(name, exact) for name in curve_names(chart, "k") if (exact := exact_of(name)) and exact in chart]
     with np.errstate(divide="ignore", invalid="ignore"):
-        return {(name, exact): np.maximum(np.abs(chart[name].values / chart[exact].values - 1), 1e-12) for name, exact in pairs}
+        return {(name, exact): np.maximum(np.abs(chart[name].values / chart[exact].values - 1), 1e-12) for name,
+                exact in pairs}
 
 
 def draw_error_rows(axes: Axes, chart: xarray.Dataset, *, colours: str = MAP, legend: bool = True) -> Axes:
@@ -26,7 +27,8 @@ def draw_error_rows(axes: Axes, chart: xarray.Dataset, *, colours: str = MAP, le
     errors, k = errors_of(chart), chart["k"].values
     rows = np.full((2 * len(errors), len(k)), np.nan)
     rows[1::2] = list(errors.values())  # the empty rows between are for words
-    axes.pcolormesh(k, np.arange(len(rows)) / 2, rows, cmap=colours, norm=LogNorm(1e-8, 1), shading="nearest", rasterized=True)
+    axes.pcolormesh(k, np.arange(len(rows)) / 2, rows, cmap=colours, norm=LogNorm(1e-8, 1), shading="nearest",
+                    rasterized=True)
     for row, pair in enumerate(errors if legend else ()):
         axes.text(0.01, row, error_label(*pair), transform=axes.get_yaxis_transform(), va="center",
                   fontsize="x-small" if current().narrow else "small")
@@ -42,7 +44,8 @@ def draw_error_curves(axes: Axes, chart: xarray.Dataset, *, colours: str = MAP, 
     for (_, exact), error in sorted(errors_of(chart).items(), key=lambda row: -np.nanmax(row[1])):
         points = np.column_stack([k, chart[exact].values])
         known = np.isfinite(error[:-1] + error[1:])
-        lines = LineCollection(list(np.stack([points[:-1], points[1:]], axis=1)[known]), cmap=colours, norm=norm, linewidth=2.6)
+        lines = LineCollection(list(np.stack([points[:-1], points[1:]], axis=1)[known]), cmap=colours, norm=norm,
+                               linewidth=2.6)
         lines.set_array(error[:-1][known])
         axes.add_collection(lines)
     axes.set(xlim=k[[0, -1]], ylim=chart["m"].values[[0, -1]], xlabel=K_LABEL, ylabel=M_LABEL)
@@ -65,5 +68,6 @@ def error_figure(chart: xarray.Dataset) -> Figure:
 def error_label(name: str, exact: str) -> str:
     """What a formula says, and whose it is: inverted stands above it (Butikov Eq. 3)."""
     curve = label(exact).removesuffix("_upper").split(": ")[-1] + (", upper" if exact.endswith("_upper") else "")
-    formula = label(name).split(", ", 1)[-1] if "subharmonic" in name else LABELS.get(name.removesuffix("_upper"), label(name))
+    formula = label(name).split(", ", 1)[-1] if "subharmonic" in name else LABELS.get(name.removesuffix("_upper"),
+                                                                                      label(name))
     return f"{curve} ({formula})"

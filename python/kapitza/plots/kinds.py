@@ -1,5 +1,6 @@
-"""The kinds of pictures: a module each, with `draw` (of a Result, with keywords), `add_options` (the same for the command line) and `STUDY`
-(what its file must hold). The first whose name is a group of a result shows its main study."""
+"""The kinds of pictures: a module each, with `draw` (of a Result, with keywords), `add_options` (the same for the
+command line) and `STUDY` (what its file must hold). The first whose name is a group of a result shows its main
+study."""
 
 from types import ModuleType
 

@@ -1,4 +1,5 @@
-"""What belongs to the letters of a page: lines, marks and ticks as thick as these are large, ticks that stay where they were laid out."""
+"""What belongs to the letters of a page: lines, marks and ticks as thick as these are large, ticks that stay where they
+were laid out."""
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -10,7 +11,8 @@ from matplotlib.ticker import AutoLocator, FixedLocator
 
 
 def scale_strokes(figure: Figure, factor: float) -> None:
-    """Lines and marks of every panel and legend `factor` times as thick and large; ticks and frames have their sizes from kapitza.style."""
+    """Lines and marks of every panel and legend `factor` times as thick and large; ticks and frames have their sizes
+    from kapitza.style."""
     if factor == 1:
         return
     legends = [legend for legend in (*figure.legends, *(axes.get_legend() for axes in figure.axes)) if legend]
@@ -31,7 +33,8 @@ def _of_panels(figure: Figure) -> list[Artist]:
 
 
 def fix_ticks(figure: Figure) -> None:
-    """Keeps the ticks that each panel has now: others, with more digits, would not fit beside a panel that was laid out for these."""
+    """Keeps the ticks that each panel has now: others, with more digits, would not fit beside a panel that was laid out
+    for these."""
     for axes in figure.axes:
         for axis in (axes.xaxis, axes.yaxis):
             if isinstance(axis.get_major_locator(), AutoLocator):

@@ -1,4 +1,5 @@
-"""Draws measures of attractors along a key of the pendulum: a panel for each measure, a line for each attractor, intervals as bands.
+"""Draws measures of attractors along a key of the pendulum: a panel for each measure, a line for each attractor,
+intervals as bands.
 
     kapitza plot line erosion.h5
 """
@@ -28,18 +29,23 @@ def measures_of(line: xarray.Dataset) -> list[str]:
             if values.dims == ("attractor", "value") and not str(name).endswith(("_low", "_high"))]
 
 
-def draw_measure(axes: Axes, line: xarray.Dataset, name: str, *, colours: Mapping[str, str] | None = None, legend: bool = True) -> Axes:
-    """One measure of every attractor over the key; a band is its interval, a dot a value without neighbours. `colours`: of names."""
+def draw_measure(axes: Axes, line: xarray.Dataset, name: str, *, colours: Mapping[str, str] | None = None,
+                 legend: bool = True) -> Axes:
+    """One measure of every attractor over the key; a band is its interval, a dot a value without neighbours. `colours`:
+    of names."""
     value, styles = line["value"].values, ("-", (0, (4, 1.5)), (0, (1, 1.2)))
     seen: dict[str, int] = {}
     for i, title in enumerate(style.names_with_ids(line["name"].values)):
-        colour = (colours or {}).get(title) or style.motion_colour(*(int(line[word].values[i]) for word in ("period", "winding", "centre")))
+        colour = (colours or {}).get(title) or style.motion_colour(*(int(line[word].values[i])
+                                                                     for word in ("period", "winding", "centre")))
         dashes = styles[seen.setdefault(colour, 0) % len(styles)]
         seen[colour] += 1
-        axes.plot(value, line[name].values[i], color=style.INK, lw=2.2, marker=".", markersize=5)  # pale colours need a rim
+        # Pale colours need a rim
+        axes.plot(value, line[name].values[i], color=style.INK, lw=2.2, marker=".", markersize=5)
         axes.plot(value, line[name].values[i], color=colour, lw=1.4, ls=dashes, marker=".", markersize=3.5, label=title)
         if f"{name}_low" in line:
-            axes.fill_between(value, line[f"{name}_low"].values[i], line[f"{name}_high"].values[i], color=style.shade(colour, 0.6), lw=0)
+            axes.fill_between(value, line[f"{name}_low"].values[i], line[f"{name}_high"].values[i],
+                              color=style.shade(colour, 0.6), lw=0)
     axes.set_ylabel(with_unit(name.replace("_", " "), line[name]))
     axes.set_ylim(0, None)
     if legend:
@@ -53,7 +59,8 @@ def mark_tangency(axes: Axes, tangency: xarray.Dataset, *, named: bool) -> Axes:
     decimals = int(np.clip(-math.floor(math.log10(error)) if error > 0 else 12, 0, 12))
     axes.axvline(value, color=style.INK, lw=0.8, ls="--")
     if named:
-        axes.annotate(f"manifolds touch at {value:.{decimals}f}", (value, 0.5), (4, 0), xycoords=("data", "axes fraction"),
+        axes.annotate(f"manifolds touch at {value:.{decimals}f}", (value, 0.5), (4, 0),
+                      xycoords=("data", "axes fraction"),
                       textcoords="offset points", va="center", fontsize="small", color=style.INK)
     return axes
 

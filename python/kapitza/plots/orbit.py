@@ -5,8 +5,8 @@
     kapitza plot orbit blackburn-fig09c.h5 --panels phase,path
     kapitza plot orbit FILE --last 20                                 its last 20 drive periods
 
-An open record of more than 200 periods shows its last 100 unless --last says otherwise, a closed orbit of as many periods one round;
-the spectrum is always that of the whole record.
+An open record of more than 200 periods shows its last 100 unless --last says otherwise, a closed orbit of as many
+periods one round; the spectrum is always that of the whole record.
 """
 
 import argparse
@@ -24,7 +24,8 @@ from kapitza.plots.page import current, entitle, new_figure, new_panels
 from kapitza.plots.units import add_si
 from kapitza.result import Result
 
-PANELS: dict[str, Callable[..., Axes]] = {"time": draw_time, "path": draw_path, "phase": draw_phase, "spectrum": draw_spectrum}
+PANELS: dict[str, Callable[..., Axes]] = {"time": draw_time, "path": draw_path, "phase": draw_phase,
+                                          "spectrum": draw_spectrum}
 STUDY = "an orbit"
 PANEL = 2.3  # inches of usual letters that a panel needs
 
@@ -33,7 +34,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--panels", type=panel_names, help=f"some of {','.join(PANELS)} (default: all)")
     parser.add_argument("--harmonics", type=int, choices=range(5), help="lines drawn into the time graph (default: 3)")
     parser.add_argument("--last", type=periods, metavar="N", help="of an open record, the last N drive periods")
-    parser.add_argument("--degrees", action="store_true", help="the lines of the spectrum in degrees too, as all angles are")
+    parser.add_argument("--degrees", action="store_true",
+                        help="the lines of the spectrum in degrees too, as all angles are")
     add_si(parser, "time in s, velocities in rad/s, frequencies in Hz")
 
 
@@ -63,7 +65,8 @@ def lay_out(panels: Sequence[str]) -> tuple[Figure, dict[str, Axes]]:
     for first in range(0, len(below), columns):
         row = below[first:first + columns]
         rows.append(row + row[-1:] * (columns - len(row)))
-    figure = new_figure(6.4, 4.4 * len(rows)) if current().inches < 2 * PANEL else new_figure(max(6.6, 3.3 * columns), 3.0 * len(rows))
+    figure = new_figure(6.4, 4.4 * len(rows)) if current().inches < 2 * PANEL else new_figure(max(6.6, 3.3 * columns),
+                                                                                              3.0 * len(rows))
     return figure, figure.subplot_mosaic(rows)
 
 
@@ -84,8 +87,8 @@ def write_title(figure: Figure, result: Result, orbit: Orbit) -> None:
     entitle(figure, result, *parts)
 
 
-def draw(result: Result, *, panels: Sequence[str] = tuple(PANELS), harmonics: int = 3, last: float | None = None, degrees: bool = False,
-         si: bool = False) -> Figure:
+def draw(result: Result, *, panels: Sequence[str] = tuple(PANELS), harmonics: int = 3, last: float | None = None,
+         degrees: bool = False, si: bool = False) -> Figure:
     """The page: the panels that were asked for."""
     orbit = Orbit(result, last, si=si)
     figure, axes = lay_out(panels)

@@ -19,7 +19,8 @@ def cut(data: xarray.Dataset, start: float, end: float) -> xarray.Dataset:
 
 
 def shown(data: xarray.Dataset, last: float | None) -> tuple[xarray.Dataset, float | None]:
-    """(data, last periods that they are or None): of a long open record its last periods, of a long closed orbit one round."""
+    """(data, last periods that they are or None): of a long open record its last periods, of a long closed orbit one
+    round."""
     length = float(data["time"].values[-1]) / TURN
     if data.attrs["closed"]:
         return (cut(data, 0, int(data.attrs["period"])) if length > LONG else data), None
@@ -28,7 +29,8 @@ def shown(data: xarray.Dataset, last: float | None) -> tuple[xarray.Dataset, flo
 
 
 class Orbit:
-    """The group orbit in the units of the pictures: degrees from the centre, drive periods; on axes also s, rad/s and Hz.
+    """The group orbit in the units of the pictures: degrees from the centre, drive periods; on axes also s, rad/s and
+    Hz.
 
     `clock` and `speed` are what a drive period and one rad per drive radian are on an axis: 1, or in SI.
     """

@@ -14,17 +14,20 @@ from kapitza.units import TURN
 HARMONICS = ["#d1602f", "#12806a", "#8a5fb8", "#b08a1e"]  # the strongest lines, in this order
 
 
-def draw_time(axes: Axes, orbit: Orbit, *, harmonics: int = 3, colours: Sequence[str] = HARMONICS, legend: bool = True) -> Axes:
-    """The angle against time; of a closed orbit its strongest harmonics beneath it, of an open one its turning points."""
+def draw_time(axes: Axes, orbit: Orbit, *, harmonics: int = 3, colours: Sequence[str] = HARMONICS,
+              legend: bool = True) -> Axes:
+    """The angle against time; of a closed orbit its strongest harmonics beneath it, of an open one its turning
+    points."""
     span = 2 * orbit.period if orbit.closed and orbit.period <= 4 else np.inf
     for t, y in _repeated(orbit, span):
         axes.plot(orbit.clock * t, y, color=style.INK, linewidth=1.3, zorder=3)
     if "xi" in orbit.data:
-        axes.plot(orbit.clock * orbit.time, orbit.deflection() + np.degrees(orbit.data["xi"].values), color=HARMONICS[0], linewidth=0.9,
-                  zorder=2, label="with the fast motion ξ")
+        axes.plot(orbit.clock * orbit.time, orbit.deflection() + np.degrees(orbit.data["xi"].values),
+                  color=HARMONICS[0], linewidth=0.9, zorder=2, label="with the fast motion ξ")
     start, end = axes.dataLim.intervalx / orbit.clock
     if orbit.resting:
-        axes.text(0.5, 0.8, "at rest: no motion beyond rounding", transform=axes.transAxes, ha="center", color=style.FAINT)
+        axes.text(0.5, 0.8, "at rest: no motion beyond rounding", transform=axes.transAxes, ha="center",
+                  color=style.FAINT)
     else:
         _draw_pivot(axes, orbit, start, end)
         _draw_features(axes, orbit, end, colours[:harmonics])
@@ -40,18 +43,19 @@ def draw_time(axes: Axes, orbit: Orbit, *, harmonics: int = 3, colours: Sequence
 
 
 def _draw_features(axes: Axes, orbit: Orbit, end: float, colours: Sequence[str]) -> None:
-    """Harmonics and strobe points of a closed orbit, turning points of an open one, where there are few enough to be seen."""
+    """Harmonics and strobe points of a closed orbit, turning points of an open one, where there are few enough to be
+    seen."""
     if orbit.closed:
         _draw_harmonics(axes, orbit, end, colours)
     elif not orbit.rotating and orbit.data.sizes["maximum_time"] < 200:
-        axes.plot(orbit.clock * orbit.data["maximum_time"] / TURN, np.degrees(orbit.data["maximum_angle"]), "o", markersize=3.2,
-                  color=style.KINDS["rotation -"], zorder=4, label="turning points")
+        axes.plot(orbit.clock * orbit.data["maximum_time"] / TURN, np.degrees(orbit.data["maximum_angle"]), "o",
+                  markersize=3.2, color=style.KINDS["rotation -"], zorder=4, label="turning points")
     if orbit.closed and orbit.period <= 24:
         t, y = _strobe_deflection(orbit)
         for shift in np.arange(0, end - 1e-9, orbit.time[-1]):
             keep = t + shift <= end + 1e-9
-            axes.plot(orbit.clock * (t[keep] + shift), y[keep], "o", markersize=4, color=style.KINDS["rotation +"], zorder=4,
-                      label="strobe points" if shift == 0 else None)
+            axes.plot(orbit.clock * (t[keep] + shift), y[keep], "o", markersize=4, color=style.KINDS["rotation +"],
+                      zorder=4, label="strobe points" if shift == 0 else None)
 
 
 def hide_rounding(axes: Axes, **spans: float) -> None:
@@ -65,8 +69,8 @@ def hide_rounding(axes: Axes, **spans: float) -> None:
 def write_legend(axes: Axes) -> Axes:
     """Above the panel, where it hides nothing."""
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=2 if current().narrow else 7, fontsize="small", handlelength=1.4,
-                    columnspacing=1.2)
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=2 if current().narrow else 7,
+                    fontsize="small", handlelength=1.4, columnspacing=1.2)
     return axes
 
 
@@ -102,6 +106,7 @@ def _draw_harmonics(axes: Axes, orbit: Orbit, end: float, colours: Sequence[str]
         axes.axhline(np.degrees(constant * np.cos(phase)), color=style.FAINT, linewidth=0.9, linestyle="--", zorder=2,
                      label=f"constant: {np.degrees(constant):.3g}°")
     for colour, j in zip(colours, orbit.strongest(len(colours)), strict=False):
-        frequency, amplitude, phase = (float(orbit.data[f"line_{name}"].values[j]) for name in ("frequency", "amplitude", "phase"))
-        axes.plot(orbit.clock * t, np.degrees(amplitude) * np.cos(TURN * frequency * t + phase), color=colour, linewidth=0.9, zorder=2,
-                  label=f"line {orbit.line_text(j)}: {np.degrees(amplitude):.3g}°")
+        frequency, amplitude, phase = (float(orbit.data[f"line_{name}"].values[j])
+                                       for name in ("frequency", "amplitude", "phase"))
+        axes.plot(orbit.clock * t, np.degrees(amplitude) * np.cos(TURN * frequency * t + phase), color=colour,
+                  linewidth=0.9, zorder=2, label=f"line {orbit.line_text(j)}: {np.degrees(amplitude):.3g}°")

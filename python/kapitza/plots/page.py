@@ -1,5 +1,5 @@
-"""The page of a picture: how wide it is, how large its letters are, where its legend stands, what is written on it. Panels keep their
-shape on any page."""
+"""The page of a picture: how wide it is, how large its letters are, where its legend stands, what is written on it.
+Panels keep their shape on any page."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -21,7 +21,8 @@ from kapitza import style
 from kapitza.plots.line_widths import fix_ticks
 from kapitza.result import Result
 
-NARROW = 6.0  # inches of usual letters: on a narrower page the legend stands below, and panels side by side stand one above the other
+# Inches of usual letters: on a narrower page the legend stands below, and panels side by side stand one above the other
+NARROW = 6.0
 LEGENDS = ("right", "below", "none")
 BELOW = "below"  # mark of a legend under all panels
 SEPARATOR = "   |   "  # between the parts of the line under a picture
@@ -33,9 +34,9 @@ class BadOption(ValueError):
 
 @dataclass(frozen=True)
 class Page:
-    """`width` in inches, None = that of each kind of picture; `font_size` in points; `legend`: one of LEGENDS; `colours`: name of an
-    attractor or kind of motion -> colour; `heading`: instead of the scene's title; `axes`: those that take the picture, on a page that is
-    somebody else's."""
+    """`width` in inches, None = that of each kind of picture; `font_size` in points; `legend`: one of LEGENDS;
+    `colours`: name of an attractor or kind of motion -> colour; `heading`: instead of the scene's title; `axes`: those
+    that take the picture, on a page that is somebody else's."""
 
     width: float | None = None
     font_size: float = style.FONT_SIZE
@@ -51,7 +52,8 @@ class Page:
 
     @property
     def inches(self) -> float:
-        """Width that letters of the usual size have there: a page with letters twice as large has half as many words on a line."""
+        """Width that letters of the usual size have there: a page with letters twice as large has half as many words on
+        a line."""
         return float("inf") if self.width is None else self.width / self.scale
 
     @property
@@ -92,7 +94,8 @@ class Picture(Figure):
 
 
 def new_figure(width: float, height: float) -> Picture:
-    """An empty page that no window shows, `width` and `height` inches for letters of the usual size; laid out when it is written."""
+    """An empty page that no window shows, `width` and `height` inches for letters of the usual size; laid out when it
+    is written."""
     if current().axes is not None:
         raise BadOption("ax takes one panel, and this picture has several; choose a view, a measure or a panel of it")
     figure = Picture(figsize=(width * current().scale, height * current().scale), layout="constrained")
@@ -100,7 +103,8 @@ def new_figure(width: float, height: float) -> Picture:
     return figure
 
 
-def new_panels(width: float, height: float, rows: int = 1, columns: int = 1, **options: Any) -> tuple[Figure, list[Axes]]:
+def new_panels(width: float, height: float, rows: int = 1, columns: int = 1,
+               **options: Any) -> tuple[Figure, list[Axes]]:
     """A new figure with its panels, row by row; a single one is the axes of the page, if it has any."""
     axes = current().axes
     if axes is not None and rows * columns == 1:
@@ -120,13 +124,15 @@ def entitle(figure: Figure, result: Result, *parts: str) -> None:
         return
     title = current().heading or title_text(result)
     heading = figure.suptitle(title, x=0.01, ha="left", fontsize="large", fontweight="bold", parse_math=False)
-    footer = figure.supxlabel(SEPARATOR.join(filter(None, parts)), x=0.01, ha="left", fontsize="small", color=style.FAINT)
+    footer = figure.supxlabel(SEPARATOR.join(filter(None, parts)), x=0.01, ha="left", fontsize="small",
+                              color=style.FAINT)
     if isinstance(figure, Picture):
         figure.heading, figure.footer = heading, footer
 
 
 def lay_out(figure: Figure) -> Figure:
-    """Gives the figure the page's width, its legend its place, its words their lines; its first panel keeps its shape."""
+    """Gives the figure the page's width, its legend its place, its words their lines; its first panel keeps its
+    shape."""
     page = current()
     if page.axes is not None:
         legend = page.axes.get_legend()
@@ -140,7 +146,8 @@ def lay_out(figure: Figure) -> Figure:
         figure.supxlabel("")
     if page.width is not None:
         panels = len({round(axes.get_position().y0, 3) for axes in figure.axes})
-        figure.set_size_inches(page.width, max(figure.get_figheight() * page.width / figure.get_figwidth(), page.width * panels))
+        figure.set_size_inches(page.width, max(figure.get_figheight() * page.width / figure.get_figwidth(),
+                                               page.width * panels))
     if page.legend != "right":
         _move_legends(figure, page.legend == "below")
     heading = getattr(figure, "heading", None)
@@ -151,7 +158,8 @@ def lay_out(figure: Figure) -> Figure:
         _break_labels(figure)
         box = figure.axes[0].get_position()
         wide = box.width * figure.get_figwidth()
-        figure.set_figheight(min(max(figure.get_figheight() + (shape - _shape(figure)) * wide, 0.8), 4 * figure.get_figwidth()))
+        figure.set_figheight(min(max(figure.get_figheight() + (shape - _shape(figure)) * wide, 0.8),
+                                 4 * figure.get_figwidth()))
     _break_labels(figure)
     if page.width is not None:
         fix_ticks(figure)
@@ -182,8 +190,10 @@ def _move_legends(figure: Figure, below: bool) -> None:
     if not below or not entries:
         return
     for columns in range(len(entries), 0, -1):
-        placed = figure.legend(list(entries.values()), list(entries), loc="outside lower left", ncols=columns, fontsize="small",
-                               handlelength=1.1, handleheight=1.1, columnspacing=1.2, borderaxespad=0.2, alignment="left")
+        placed = figure.legend(list(entries.values()), list(entries), loc="outside lower left", ncols=columns,
+                               fontsize="small",
+                               handlelength=1.1, handleheight=1.1, columnspacing=1.2, borderaxespad=0.2,
+                               alignment="left")
         placed.set_gid(BELOW)
         if placed.get_window_extent().width < 0.97 * figure.bbox.width or columns == 1:
             return
@@ -201,12 +211,14 @@ def _entries(legend: Legend) -> Iterator[tuple[Artist, str]]:
     texts = [text.get_text() for text in legend.get_texts()]
     if legend.get_gid() == style.WITH_SHARES:
         half = len(texts) // 2
-        texts = [f"{name} {share.strip(style.FIGURE_SPACE)}" for name, share in zip(texts[:half], texts[half:], strict=True)]
+        texts = [f"{name} {share.strip(style.FIGURE_SPACE)}" for name,
+                 share in zip(texts[:half], texts[half:], strict=True)]
     yield from zip(filter(None, legend.legend_handles), texts, strict=False)
 
 
 def _break_lines(figure: Figure) -> None:
-    """The line under the picture, and the title, on as many lines as the page's width takes; above a legend the first is its heading."""
+    """The line under the picture, and the title, on as many lines as the page's width takes; above a legend the first
+    is its heading."""
     footer, title = getattr(figure, "footer", None), getattr(figure, "heading", None)
     if footer and footer.get_text():
         footer.set_text(_broken(figure, footer, footer.get_text().split(SEPARATOR), SEPARATOR))
@@ -238,6 +250,7 @@ def _break_labels(figure: Figure) -> None:
     for axes in figure.axes:
         for axis, room in ((axes.xaxis, axes.bbox.width), (axes.yaxis, axes.bbox.height)):
             box = axis.label.get_window_extent()
-            if max(box.width, box.height) > 1.05 * room and "\n" not in axis.get_label_text() and " (" in axis.get_label_text():
+            if max(box.width,
+                   box.height) > 1.05 * room and "\n" not in axis.get_label_text() and " (" in axis.get_label_text():
                 head, tail = axis.get_label_text().rsplit(" (", 1)
                 axis.set_label_text(f"{head}\n({tail}")

@@ -17,7 +17,8 @@ from kapitza.plots.page import LEGENDS, NARROW, Page
 from kapitza.scene import read_yaml
 
 NAMES = (*style.KINDS, "not settled")  # of colours, and those of attractors:
-MOTION = re.compile(r"(rotation [+-]\d+/\d+|(down|inverted|wide) \d+-nodding|down|inverted|flutter|chaotic|running [+-])( \(\d+\))?")
+MOTION = re.compile(
+    r"(rotation [+-]\d+/\d+|(down|inverted|wide) \d+-nodding|down|inverted|flutter|chaotic|running [+-])( \(\d+\))?")
 UNITS = {"mm": 1 / 25.4, "cm": 1 / 2.54, "in": 1.0, "pt": 1 / 72}
 
 
@@ -27,7 +28,8 @@ def add_page_options(parser: argparse.ArgumentParser) -> None:
                         help="width of the page, such as 86mm or 3.4in (default: that of the kind)")
     parser.add_argument("--font-size", type=points, metavar="POINTS",
                         help=f"size of the letters, and of lines and marks (default: {style.FONT_SIZE:g})")
-    parser.add_argument("--legend", choices=LEGENDS, help=f"where it stands (default: right; below on pages under {NARROW:g} in)")
+    parser.add_argument("--legend", choices=LEGENDS,
+                        help=f"where it stands (default: right; below on pages under {NARROW:g} in)")
     parser.add_argument("--colours", type=colours_of, metavar="FILE",
                         help='YAML file of "name of an attractor or kind of motion: colour"')
     parser.add_argument("--title", metavar="TEXT", help="instead of the scene's title")
@@ -36,8 +38,8 @@ def add_page_options(parser: argparse.ArgumentParser) -> None:
 
 def page_of(options: Mapping[str, Any], legend: str = "", axes: Axes | None = None) -> Page:
     """The page that the options ask for; `legend`: where the kind of picture has it."""
-    page = Page(options.get("width"), options.get("font_size", style.FONT_SIZE), "none", not options.get("no_title"), options.get("title"),
-                options.get("colours", {}), axes)
+    page = Page(options.get("width"), options.get("font_size", style.FONT_SIZE), "none", not options.get("no_title"),
+                options.get("title"), options.get("colours", {}), axes)
     place = options.get("legend") or legend or ("below" if page.narrow else "right")
     return page if options.get("no_legend") else replace(page, legend=place)
 
@@ -47,7 +49,8 @@ def length(text: str) -> float:
     number, unit = text[:-2].strip(), text[-2:]
     if unit not in UNITS or not 0.5 <= float(number) * UNITS[unit] <= 60:
         units = ", ".join(UNITS)
-        raise argparse.ArgumentTypeError(f"{text} is not a width; give a number and one of {units}, such as 86mm, from 0.5 to 60 inches")
+        raise argparse.ArgumentTypeError(
+            f"{text} is not a width; give a number and one of {units}, such as 86mm, from 0.5 to 60 inches")
     return float(number) * UNITS[unit]
 
 
@@ -69,8 +72,11 @@ def colours_of(given: str | os.PathLike[str] | Mapping[Any, Any]) -> dict[str, s
         raise argparse.ArgumentTypeError(f'{text} contains no colours; write lines such as inverted: "#f2b233"')
     for name, colour in colours.items():
         if str(name) not in NAMES and not MOTION.fullmatch(str(name)):
-            raise argparse.ArgumentTypeError(f"{text}: {name!s} is the name of no motion; the names are {', '.join(NAMES)}, and those of "
-                                             "attractors, such as rotation +1/2, inverted 3-nodding, inverted 3-nodding (2)")
+            raise argparse.ArgumentTypeError(
+                f"{text}: {name!s} is the name of no motion; the names are {', '.join(NAMES)}, and those of "
+                                             "attractors, such as rotation +1/2, inverted 3-nodding, inverted "
+                                             "3-nodding (2)")
         if not is_color_like(colour):
-            raise argparse.ArgumentTypeError(f'{text}: {name}: {colour!r} is not a colour; write one such as "#f2b233" or gold')
+            raise argparse.ArgumentTypeError(
+                f'{text}: {name}: {colour!r} is not a colour; write one such as "#f2b233" or gold')
     return {str(name): colour for name, colour in colours.items()}

@@ -1,7 +1,9 @@
-"""Draws one page about an attractor: its orbit on the phase plane, in time and its spectrum, its multipliers, its basin, its measures.
+"""Draws one page about an attractor: its orbit on the phase plane, in time and its spectrum, its multipliers, its
+basin, its measures.
 
     kapitza plot passport blackburn-fig12.h5 --attractor inverted
-    kapitza plot passport blackburn-fig12.h5 --attractor 5        by its number in the table of attractors, or of measures
+    kapitza plot passport blackburn-fig12.h5 --attractor 5
+        by its number in the table of attractors, or of measures
 
 The program computes the orbit. What the file does not hold is left out: the basin, multipliers, measures.
 """
@@ -51,10 +53,12 @@ def chosen_row(result: Result, wanted: str) -> tuple[str, int]:
 
 def start_of(result: Result, group: str, number: int) -> tuple[float, float]:
     """The first strobe point of an attractor; of chaos in the group measures its means."""
-    table, words = result.group(group), ("strobe_theta", "strobe_velocity") if group == "attractors" else ("theta", "velocity")
+    table, words = result.group(group), ("strobe_theta",
+                                         "strobe_velocity") if group == "attractors" else ("theta", "velocity")
     theta, velocity = (float(np.ravel(table[word].values[number])[0]) for word in words)
     if not np.isfinite(theta):
-        raise BadFile(f"{style.name_text(table['name'].values[number])} never closes, and the file holds no state of it to start from")
+        raise BadFile(f"{style.name_text(table['name'].values[number])} never closes, and the file holds no state of "
+                      "it to start from")
     return theta, velocity
 
 
@@ -63,7 +67,8 @@ def orbit_of(result: Result, group: str, number: int, si: bool) -> Orbit:
     theta, velocity = start_of(result, group, number)
     if int(result.group(group)["period"].values[number]) > 0:
         return Orbit(orbit(result.scene, theta, velocity, closed=True, progress=False), si=si)
-    return Orbit(orbit(result.scene, theta, velocity, periods=CHAOTIC_PERIODS, transient=CHAOTIC_TRANSIENT, progress=False), si=si)
+    return Orbit(orbit(result.scene, theta, velocity, periods=CHAOTIC_PERIODS, transient=CHAOTIC_TRANSIENT,
+                       progress=False), si=si)
 
 
 def measures_row(result: Result, group: str, number: int) -> int | None:
@@ -85,9 +90,11 @@ def draw_multipliers(axes: Axes, multipliers: np.ndarray, *, colours: str = STRO
     axes.plot(np.cos(angle), np.sin(angle), color=style.FAINT, linewidth=0.8)
     axes.axhline(0, color=style.FAINT, linewidth=0.4)
     axes.axvline(0, color=style.FAINT, linewidth=0.4)
-    axes.plot(multipliers.real, multipliers.imag, "o", color=colours, markeredgecolor=style.INK, markeredgewidth=0.6, markersize=5)
+    axes.plot(multipliers.real, multipliers.imag, "o", color=colours, markeredgecolor=style.INK, markeredgewidth=0.6,
+              markersize=5)
     reach = 1.15 * max(1.0, float(np.abs(multipliers).max()))
-    axes.set(xlim=(-reach, reach), ylim=(-reach, reach), xlabel="real part of the multiplier", ylabel="imaginary part", aspect="equal")
+    axes.set(xlim=(-reach, reach), ylim=(-reach, reach), xlabel="real part of the multiplier", ylabel="imaginary part",
+             aspect="equal")
     if legend:
         moduli = sorted({f"{abs(value):.4g}" for value in multipliers}, key=float, reverse=True)
         axes.set_title("modulus " + ", ".join(moduli), fontsize="small", fontweight="normal", loc="left")
@@ -104,7 +111,8 @@ def multipliers_of(result: Result, group: str, number: int) -> np.ndarray:
 
 
 def draw_table(axes: Axes, rows: list[tuple[str, str]], *, colours: str = style.FAINT, legend: bool = False) -> Axes:
-    """Words and values below each other, many in two columns if there is room; `colours`: of the words; `legend`: a line above them."""
+    """Words and values below each other, many in two columns if there is room; `colours`: of the words; `legend`: a
+    line above them."""
     axes.axis("off")
     if legend:
         axes.set_title("measures", fontsize="medium", loc="left")

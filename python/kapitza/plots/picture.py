@@ -1,4 +1,5 @@
-"""A picture of a result, for Python by keywords and for the command line by words: both name the options of its kind."""
+"""A picture of a result, for Python by keywords and for the command line by words: both name the options of its
+kind."""
 
 import argparse
 import inspect
@@ -30,7 +31,8 @@ def parser_of(kind: str) -> Parser:
     parser = Parser(prog=f"kapitza plot {kind}", description=KINDS[kind].__doc__, argument_default=argparse.SUPPRESS,
                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file", help=f"result file that holds {KINDS[kind].STUDY}")
-    parser.add_argument("-o", "--output", type=Path, help="picture; .png, .svg or .pdf (default: FILE's name with .png, here)")
+    parser.add_argument("-o", "--output", type=Path,
+                        help="picture; .png, .svg or .pdf (default: FILE's name with .png, here)")
     parser.add_argument("--dpi", type=resolution)
     add_page_options(parser)
     KINDS[kind].add_options(parser)
@@ -61,7 +63,8 @@ def main(kind: str, words: list[str]) -> None:
         with drawing(_page(kind, given)):
             style.save(figure, output, dpi)
     except UserWarning as error:
-        raise BadFile(f"{output}: its panels do not fit on the page; give a larger --width or a smaller --font-size") from error
+        raise BadFile(
+            f"{output}: its panels do not fit on the page; give a larger --width or a smaller --font-size") from error
     print(output)
 
 
@@ -86,7 +89,8 @@ def picture(result: Result, kind: str, ax: Axes | None = None, **options: Any) -
 
 
 def _value(action: argparse.Action, value: Any) -> Any:
-    """What an option becomes: of a text as the command line reads it, else the value itself, checked in the same way."""
+    """What an option becomes: of a text as the command line reads it, else the value itself, checked in the same
+    way."""
     if action.nargs == 0:
         return bool(value)
     if action.nargs == "+":

@@ -1,4 +1,5 @@
-"""Measures over a plane of two keys: a panel for each name of attractors, or one for a measure of the whole pendulum."""
+"""Measures over a plane of two keys: a panel for each name of attractors, or one for a measure of the whole
+pendulum."""
 
 import math
 import re
@@ -35,7 +36,8 @@ def measures_of(plane: xarray.Dataset) -> list[str]:
 
 
 def of_name(plane: xarray.Dataset, measure: str, chosen: list[int]) -> tuple[np.ndarray, bool]:
-    """The measure of the chosen attractors over (y, x), NaN where none has a value; whether some point has several of them.
+    """The measure of the chosen attractors over (y, x), NaN where none has a value; whether some point has several of
+    them.
 
     Shares and areas are added; of other measures it is the smallest.
     """
@@ -46,13 +48,15 @@ def of_name(plane: xarray.Dataset, measure: str, chosen: list[int]) -> tuple[np.
 
 
 def panels_of(result: Result, plane: xarray.Dataset, wanted: Iterable[str] | None) -> dict[str, list[int]]:
-    """Title of a panel -> numbers of its attractors: the names that are asked for, else those that the most pendulums have."""
+    """Title of a panel -> numbers of its attractors: the names that are asked for, else those that the most pendulums
+    have."""
     names = [str(name) for name in plane["name"].values]
     if wanted is None:
         points = {name: int(plane["points"].values[[other == name for other in names]].sum()) for name in names}
         wanted = sorted(points, key=lambda name: -points[name])[:MOST]
     full = [f"{name} ({number})" for number, name in enumerate(names)]
-    found = {name: [number for number in range(len(names)) if name in (names[number], full[number], str(number))] for name in wanted}
+    found = {name: [number for number in range(len(names)) if name in (names[number], full[number], str(number))]
+             for name in wanted}
     for name, numbers in found.items():
         if not numbers:
             raise BadFile(f"{result.path}: has no attractor {name}; it has {', '.join(dict.fromkeys(names))}")
@@ -61,11 +65,12 @@ def panels_of(result: Result, plane: xarray.Dataset, wanted: Iterable[str] | Non
 
 def draw_plane(axes: Axes, plane: xarray.Dataset, values: np.ndarray, *, colours: str = "viridis", legend: bool = True,
                norm: Normalize | None = None, label: str = "") -> Axes:
-    """Values over (y, x); hatched where there are none. `colours`: name of a colour map; `legend`: the bar beside it, with `label`."""
+    """Values over (y, x); hatched where there are none. `colours`: name of a colour map; `legend`: the bar beside it,
+    with `label`."""
     norm = norm or norm_of(values)
     axes.patch.set(facecolor="white", hatch="////", edgecolor="#c4cbd2", linewidth=0)
-    image = axes.pcolormesh(plane["x"], plane["y"], np.ma.masked_invalid(values), cmap=colormaps[colours], norm=norm, shading="nearest",
-                            rasterized=True)
+    image = axes.pcolormesh(plane["x"], plane["y"], np.ma.masked_invalid(values), cmap=colormaps[colours], norm=norm,
+                            shading="nearest", rasterized=True)
     if legend:
         axes.figure.colorbar(image, ax=axes, label=label, fraction=0.05, pad=0.01)
     for centres, limit in ((plane["x"].values, axes.set_xlim), (plane["y"].values, axes.set_ylim)):
@@ -93,7 +98,8 @@ def atlas_of(result: Result, plane: xarray.Dataset, path: Path | None) -> xarray
     ours, theirs = (found if isinstance(found, dict) else {} for found in pendulums)
     for key in sorted((ours.keys() | theirs.keys()) - set(keys)):
         if ours.get(key) != theirs.get(key):
-            raise BadFile(f"{other.path}: its atlas is of another pendulum: {key} is {theirs.get(key)}, that of the plane {ours.get(key)}")
+            raise BadFile(f"{other.path}: its atlas is of another pendulum: {key} is {theirs.get(key)}, that of the "
+                          f"plane {ours.get(key)}")
     return atlas
 
 
@@ -132,16 +138,20 @@ def grid_of(count: int) -> tuple[Figure, list[Axes]]:
     return figure, panels[:count]
 
 
-def measure_page(result: Result, plane: xarray.Dataset, measure: str | None, attractor: Iterable[str] | None, path: Path | None) -> Figure:
-    """The page of one measure, the first where none is given; `attractor`: names; `path`: of the atlas whose curves lie on top."""
+def measure_page(result: Result, plane: xarray.Dataset, measure: str | None, attractor: Iterable[str] | None,
+                 path: Path | None) -> Figure:
+    """The page of one measure, the first where none is given; `attractor`: names; `path`: of the atlas whose curves lie
+    on top."""
     known = measures_of(plane)
     measure = measure or next(iter(known), "measure")
     if measure not in known:
-        raise BadFile(f"{result.path}: its plane has no {measure}; it has {', '.join(known) or 'no measure of attractors'}")
+        raise BadFile(
+            f"{result.path}: its plane has no {measure}; it has {', '.join(known) or 'no measure of attractors'}")
     atlas = atlas_of(result, plane, path)
     single = plane[measure].dims == ("y", "x")
     chosen: dict[str, list[int]] = {"": []} if single else panels_of(result, plane, attractor)
-    images = [(plane[measure].values, False)] if single else [of_name(plane, measure, numbers) for numbers in chosen.values()]
+    images = [(plane[measure].values, False)] if single else [of_name(plane, measure, numbers)
+                                                              for numbers in chosen.values()]
     norm = norm_of(np.array([values for values, _ in images]))
     figure, panels = grid_of(len(images))
     for axes, name, (values, _) in zip(panels, chosen, images, strict=True):
@@ -157,10 +167,12 @@ def measure_page(result: Result, plane: xarray.Dataset, measure: str | None, att
     return figure
 
 
-def footer(result: Result, plane: xarray.Dataset, measure: str, chosen: dict[str, list[int]], images: list[tuple[np.ndarray, bool]],
-           single: bool) -> list[str]:
-    """What is drawn: how many points, what hatching means, which names are left out, what attractors of one name make."""
-    words = [f"{plane.sizes['x']} × {plane.sizes['y']} points", fixed_si(result, plane) if result.pivot_frequency else ""]
+def footer(result: Result, plane: xarray.Dataset, measure: str, chosen: dict[str, list[int]],
+           images: list[tuple[np.ndarray, bool]], single: bool) -> list[str]:
+    """What is drawn: how many points, what hatching means, which names are left out, what attractors of one name
+    make."""
+    words = [f"{plane.sizes['x']} × {plane.sizes['y']} points", fixed_si(result, plane) if result.pivot_frequency
+             else ""]
     if any(np.isnan(values).any() for values, _ in images):
         words.append("hatched: no value" if single else "hatched: no value, or the attractor is not seen")
     if not single:

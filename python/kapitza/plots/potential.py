@@ -1,4 +1,5 @@
-"""Draws the effective potential from a result file of kapitza: exact, and by the two formulas of Blackburn et al. (1992).
+"""Draws the effective potential from a result file of kapitza: exact, and by the two formulas of Blackburn et al.
+(1992).
 
     kapitza plot potential blackburn-fig05.h5
 """
@@ -19,23 +20,27 @@ from kapitza.units import TURN, drive_unit
 
 STUDY = "a potential"
 COLOURS = ["#6b747e", "#2f6db3", "#12806a", "#c2452f", "#5b2a7a", "#b08a1e"]  # of the drive amplitudes, in turn
-FORMULAS = (("blackburn", (0, (4, 2)), "Blackburn Eq. 11"), ("simple", (0, (1, 1.5)), "leading order (Eq. 12)"))  # name, dashes, label
+# Name, dashes, label
+FORMULAS = (("blackburn", (0, (4, 2)), "Blackburn Eq. 11"), ("simple", (0, (1, 1.5)), "leading order (Eq. 12)"))
 
 
 def full_circle(angle: xarray.DataArray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The same over a turn from 0, so that the inverted position is in the middle."""
     theta, turn = angle.values, TURN * drive_unit(angle)
-    return np.append(theta[theta >= 0], theta[theta < 0][1:] + turn), np.append(values[theta >= 0], values[theta < 0][1:])
+    return np.append(theta[theta >= 0], theta[theta < 0][1:] + turn), np.append(values[theta >= 0],
+                                                                                values[theta < 0][1:])
 
 
-def draw_energy(axes: Axes, potential: xarray.Dataset, *, colours: Sequence[str] = COLOURS, legend: bool = True) -> Axes:
+def draw_energy(axes: Axes, potential: xarray.Dataset, *, colours: Sequence[str] = COLOURS,
+                legend: bool = True) -> Axes:
     """The exact potential of every drive amplitude with the rim of its well, and the formulas, dashed."""
     theta, turn = potential["theta"], TURN * drive_unit(potential["theta"])
     for row, amplitude in enumerate(potential["drive_amplitude"].values):
         colour, exact = colours[row % len(colours)], potential["energy"].values[row]
         axes.plot(*full_circle(theta, exact), color=colour, linewidth=1.6, label=f"ε = {amplitude:g}")
         for name, dash, _ in FORMULAS:
-            axes.plot(*full_circle(theta, potential[f"energy_{name}"].values[row]), color=colour, linewidth=0.8, linestyle=dash)
+            axes.plot(*full_circle(theta, potential[f"energy_{name}"].values[row]), color=colour, linewidth=0.8,
+                      linestyle=dash)
         rim = float(potential["rim_exact"].values[row])
         if np.isfinite(rim):
             top = np.interp(rim, theta.values, exact)
@@ -50,13 +55,14 @@ def draw_energy(axes: Axes, potential: xarray.Dataset, *, colours: Sequence[str]
     return _over_the_circle(axes, theta)
 
 
-def draw_differences(axes: Axes, potential: xarray.Dataset, *, colours: Sequence[str] = COLOURS, legend: bool = True) -> Axes:
+def draw_differences(axes: Axes, potential: xarray.Dataset, *, colours: Sequence[str] = COLOURS,
+                     legend: bool = True) -> Axes:
     """What the formulas are off by."""
     theta = potential["theta"]
     for row, exact in enumerate(potential["energy"].values):
         for name, dash, text in FORMULAS:
-            axes.plot(*full_circle(theta, potential[f"energy_{name}"].values[row] - exact), color=colours[row % len(colours)],
-                      linewidth=1.1, linestyle=dash, label=None if row else text)
+            axes.plot(*full_circle(theta, potential[f"energy_{name}"].values[row] - exact),
+                      color=colours[row % len(colours)], linewidth=1.1, linestyle=dash, label=None if row else text)
     if legend:
         axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     axes.set_ylabel("formula − exact (I ω²)")

@@ -10,8 +10,8 @@ from kapitza import style
 from kapitza.plots.window_axes import Plane, label_axes
 
 
-def mark_saddles(axes: Axes, basin: xarray.Dataset, saddles: xarray.Dataset, *, colour: str = style.INK, rim: str = "white",
-                 centre: str = "down") -> Axes:
+def mark_saddles(axes: Axes, basin: xarray.Dataset, saddles: xarray.Dataset, *, colour: str = style.INK,
+                 rim: str = "white", centre: str = "down") -> Axes:
     """A cross at every strobe point of every unstable cycle; longer cycles are drawn smaller."""
     plane = Plane(basin, centre)
     for period in np.unique(saddles["period"].values)[::-1]:
@@ -23,9 +23,10 @@ def mark_saddles(axes: Axes, basin: xarray.Dataset, saddles: xarray.Dataset, *, 
     return label_axes(axes, plane)
 
 
-def mark_manifolds(axes: Axes, basin: xarray.Dataset, manifolds: xarray.Dataset, *, colours: Sequence[str] = ("white", "black"),
-                   centre: str = "down") -> Axes:
-    """Every polyline at every image that lies in the window, in the colours of unstable and stable ones, each with a thin rim."""
+def mark_manifolds(axes: Axes, basin: xarray.Dataset, manifolds: xarray.Dataset, *,
+                   colours: Sequence[str] = ("white", "black"), centre: str = "down") -> Axes:
+    """Every polyline at every image that lies in the window, in the colours of unstable and stable ones, each with a
+    thin rim."""
     theta, velocity, kind = (manifolds[name].values for name in ("theta", "velocity", "kind"))
     plane = Plane(basin, centre)
     if plane.centres:  # curves are not known as finely as such a window is

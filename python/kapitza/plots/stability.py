@@ -26,7 +26,8 @@ from kapitza.result import BadFile, Result
 
 STUDY = "a stability chart"
 STABLE = "#e4e9ee"
-WIDEST, FEWEST = 0.03, 40  # of the view frequency: relative distance of neighbouring columns, and how many there must be
+# Of the view frequency: relative distance of neighbouring columns, and how many there must be
+WIDEST, FEWEST = 0.03, 40
 RESTS = ("white", style.KINDS["inverted"], style.KINDS["down"], "#a9c8a4")  # stable: neither, inverted, hanging, both
 
 
@@ -37,16 +38,19 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def frame(axes: Axes, chart: xarray.Dataset) -> Axes:
     """The chart's edges and what its axes are."""
     across, up, xlabel, ylabel = axes_of(chart)
-    axes.set(xlim=across * chart["k"].values[[0, -1]], ylim=up * chart["m"].values[[0, -1]], xlabel=xlabel, ylabel=ylabel)
+    axes.set(xlim=across * chart["k"].values[[0, -1]], ylim=up * chart["m"].values[[0, -1]], xlabel=xlabel,
+             ylabel=ylabel)
     return axes
 
 
-def draw_zones(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = ("white", STABLE), legend: bool = True) -> Axes:
+def draw_zones(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = ("white", STABLE),
+               legend: bool = True) -> Axes:
     """Zones (colours: unstable, stable) and curves over (k, m)."""
     across, up, *_ = axes_of(chart)
-    axes.pcolormesh(across * chart["k"], up * chart["m"], chart["stable"], cmap=ListedColormap(list(colours)), vmin=0, vmax=1,
-                    shading="nearest", rasterized=True)
-    draw_curves(axes, chart, legend=legend, zones=[Patch(facecolor=colours[1], edgecolor=style.FAINT, label="rest is stable")])
+    axes.pcolormesh(across * chart["k"], up * chart["m"], chart["stable"], cmap=ListedColormap(list(colours)), vmin=0,
+                    vmax=1, shading="nearest", rasterized=True)
+    draw_curves(axes, chart, legend=legend,
+                zones=[Patch(facecolor=colours[1], edgecolor=style.FAINT, label="rest is stable")])
     mark_thresholds(axes, chart)
     return frame(axes, chart)
 
@@ -61,14 +65,17 @@ def mark_thresholds(axes: Axes, chart: xarray.Dataset) -> Axes:
     return axes
 
 
-def draw_growth(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = ("OrRd", "Blues"), legend: bool = True) -> Axes:
+def draw_growth(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = ("OrRd", "Blues"),
+                legend: bool = True) -> Axes:
     """Growth rate per period in the tongues, Floquet angle between them (colours: names of their colour maps)."""
     across, up, *_ = axes_of(chart)
     stable = chart["stable"].values == 1
     growth = np.where(stable, np.nan, chart["log_multiplier"])
     angle = np.where(stable, chart["angle"], np.nan)
-    for values, cmap, text in ((growth, colours[0], "growth: ln |multiplier| per period"), (angle, colours[1], "Floquet angle / 2π")):
-        image = axes.pcolormesh(across * chart["k"], up * chart["m"], values, cmap=cmap, shading="nearest", rasterized=True, vmin=0)
+    for values, cmap, text in ((growth, colours[0], "growth: ln |multiplier| per period"),
+                               (angle, colours[1], "Floquet angle / 2π")):
+        image = axes.pcolormesh(across * chart["k"], up * chart["m"], values, cmap=cmap, shading="nearest",
+                                rasterized=True, vmin=0)
         if legend:
             place = {"location": "bottom", "pad": 0.02} if current().narrow else {"pad": 0.01}
             axes.figure.colorbar(image, ax=axes, label=text, fraction=0.05, **place)
@@ -87,7 +94,8 @@ def draw_frequency(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] 
     hanging, inverted = columns_of_both(k)
     omega = 1 / np.sqrt(k[hanging])
     both = chart["stable"].values[:, inverted] + 2 * chart["stable"].values[:, hanging]
-    axes.pcolormesh(omega, chart["m"], both, cmap=ListedColormap(list(colours)), vmin=0, vmax=3, shading="nearest", rasterized=True)
+    axes.pcolormesh(omega, chart["m"], both, cmap=ListedColormap(list(colours)), vmin=0, vmax=3, shading="nearest",
+                    rasterized=True)
     for name in curve_names(chart, "k"):
         for sign in (-1, 1):
             inside = (sign * k > 0) & np.isfinite(chart[name].values)
@@ -104,13 +112,15 @@ def draw_frequency(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] 
 def columns_of_both(k: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Columns of the chart at 1/Omega^2 and at -1/Omega^2, the frequencies upward; BadFile where there are too few.
 
-    Stability is drawn where it was asked for alone: columns that are farther apart than WIDEST of their frequency are left out.
+    Stability is drawn where it was asked for alone: columns that are farther apart than WIDEST of their frequency are
+    left out.
     """
     hanging = np.flatnonzero(k > 0)[::-1]
     inverted = np.array([np.abs(k + k[column]).argmin() for column in hanging], dtype=int)
     step = np.diff(k).min() if len(k) > 1 else 0
     paired = np.abs(k[inverted] + k[hanging]) <= 1e-6 * step
-    near = np.append(1 - np.sqrt(k[hanging][1:] / k[hanging][:-1]) < WIDEST, False) if len(hanging) else np.zeros(0, bool)
+    near = np.append(1 - np.sqrt(k[hanging][1:] / k[hanging][:-1]) < WIDEST,
+                     False) if len(hanging) else np.zeros(0, bool)
     keep = paired & np.logical_and.accumulate(near)
     if keep.sum() < FEWEST:
         raise BadFile("this view needs stability at k and at -k, close enough at small k; a scene with such a chart: "
@@ -128,8 +138,8 @@ def draw_trap(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = RES
     if not chart.attrs.get("odd_harmonics", 1):
         raise BadFile("this view needs a wave form whose second half is its first one with the other sign")
     stable = chart["stable"].values
-    axes.pcolormesh(2 * chart["m"], 4 * k, (stable[:, opposite] + 2 * stable).T, cmap=ListedColormap(list(colours)), vmin=0, vmax=3,
-                    shading="nearest", rasterized=True)
+    axes.pcolormesh(2 * chart["m"], 4 * k, (stable[:, opposite] + 2 * stable).T, cmap=ListedColormap(list(colours)),
+                    vmin=0, vmax=3, shading="nearest", rasterized=True)
     for name in curve_names(chart):
         if exact_of(name) is None:
             k_of, m_of = whole_curve(chart, name)
@@ -153,8 +163,8 @@ def _frequency_legend(axes: Axes, colours: Sequence[str]) -> None:
     patches = _patches(colours, ("neither", "inverted", "down", "both"))
     lines = [Line2D([], [], color=style.INK, linewidth=0.9, label="exact"),
              Line2D([], [], color=style.INK, linewidth=0.9, linestyle=(0, (4, 2)), label="formulas of a paper")]
-    axes.legend(handles=[*patches, *lines], loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small", title="stable at rest",
-                title_fontsize="small")
+    axes.legend(handles=[*patches, *lines], loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small",
+                title="stable at rest", title_fontsize="small")
 
 
 def _page(panel: Callable[..., Axes]) -> Callable[[xarray.Dataset], Figure]:
@@ -166,8 +176,8 @@ def _page(panel: Callable[..., Axes]) -> Callable[[xarray.Dataset], Figure]:
     return make
 
 
-VIEWS = {"zones": _page(draw_zones), "growth": _page(draw_growth), "frequency": _page(draw_frequency), "trap": _page(draw_trap),
-         "errors": error_figure}
+VIEWS = {"zones": _page(draw_zones), "growth": _page(draw_growth), "frequency": _page(draw_frequency),
+         "trap": _page(draw_trap), "errors": error_figure}
 
 
 def damping_text(chart: xarray.Dataset) -> str:

@@ -10,18 +10,18 @@ from kapitza.plots.page import current
 from kapitza.plots.window_axes import Plane
 
 
-def mark_strobe_points(axes: Axes, plane: Plane, basin: xarray.Dataset, attractors: xarray.Dataset, *, colours: Mapping[int, str],
-                       edge: str = "white") -> Axes:
-    """Every strobe point of the attractors in `colours` (id -> colour), at every place of the window where it shows; many points are
-    drawn smaller, and what would hide a small basin is smaller still or left out."""
+def mark_strobe_points(axes: Axes, plane: Plane, basin: xarray.Dataset, attractors: xarray.Dataset, *,
+                       colours: Mapping[int, str], edge: str = "white") -> Axes:
+    """Every strobe point of the attractors in `colours` (id -> colour), at every place of the window where it shows;
+    many points are drawn smaller, and what would hide a small basin is smaller still or left out."""
     room, strokes = Room(axes, plane, basin), current().scale  # by which the page will draw them larger
     for index, face in colours.items():
         size, line = (4.6, 0.9) if attractors["period"].values[index] <= 2 else (3.2, 0.6)
         points = plane.inside(attractors["strobe_theta"].values[index], attractors["strobe_velocity"].values[index])
         scale = room.taken_by(*points, strokes * (size + line))
         if scale and points[0].size:  # a line without points would count as one at the corner of the page
-            axes.plot(*points, "o", markersize=scale * size, markerfacecolor=face, markeredgecolor=edge, markeredgewidth=scale * line,
-                      clip_on=False, zorder=3)
+            axes.plot(*points, "o", markersize=scale * size, markerfacecolor=face, markeredgecolor=edge,
+                      markeredgewidth=scale * line, clip_on=False, zorder=3)
     return axes
 
 
@@ -34,7 +34,8 @@ class Room:
         self.plane, self.basin = plane, basin
         place, figure = axes.get_position(), axes.get_figure(root=True)
         assert figure is not None
-        self.width, self.height = 72 * place.width * figure.get_figwidth(), 72 * place.height * figure.get_figheight()  # points
+        # Points
+        self.width, self.height = 72 * place.width * figure.get_figwidth(), 72 * place.height * figure.get_figheight()
         labels, counts = np.unique(basin["attractor"].values, return_counts=True)
         self.left = dict(zip(labels, self.HIDDEN * self.width * self.height * counts / counts.sum(), strict=True))
         across = np.linspace(-1, 1, 15)
@@ -42,7 +43,8 @@ class Room:
         self.disk = disk[:, np.hypot(*disk) <= 1]
 
     def taken_by(self, theta: np.ndarray, velocity: np.ndarray, diameter: float) -> float:
-        """The scale (1, 1/2, 1/4 or 0) at which the dots of an attractor leave every basin under them visible; takes their place."""
+        """The scale (1, 1/2, 1/4 or 0) at which the dots of an attractor leave every basin under them visible; takes
+        their place."""
         for scale in (1, 0.5, 0.25):
             covered = self._covered(theta, velocity, scale * diameter)
             if all(area <= self.left[label] for label, area in covered.items()):

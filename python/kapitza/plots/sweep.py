@@ -41,15 +41,17 @@ def add_options(parser: argparse.ArgumentParser) -> None:
                         help="strobe points and squared amplitudes in degrees too, as all other angles are")
 
 
-def draw_releases(axes: Axes, sweep: xarray.Dataset, *, colours: tuple[str, str, str, str] = (STAYS, style.FAINT, DOWN, style.INK),
+def draw_releases(axes: Axes, sweep: xarray.Dataset, *,
+                  colours: tuple[str, str, str, str] = (STAYS, style.FAINT, DOWN, style.INK),
                   legend: bool = True) -> Axes:
     """The set of releases that stay, its last edge, what a scan finds, its first gap (colours: of these four)."""
     value, angle = sweep["value"].values, in_degrees(sweep["release"])
     edges = np.concatenate([value[:1], (value[1:] + value[:-1]) / 2, value[-1:]])
     stays = np.where(sweep["release_stays"].values.T == 1, 1.0, np.nan)
-    axes.pcolormesh(edges, np.concatenate([[angle[0] / 2], angle + angle[0] / 2]), stays, cmap=ListedColormap([colours[0]]),
-                    rasterized=True)
-    axes.plot(value, in_degrees(sweep["release_angle_largest"]), "_", color=colours[1], markersize=3, label="last angle that stays")
+    axes.pcolormesh(edges, np.concatenate([[angle[0] / 2], angle + angle[0] / 2]), stays,
+                    cmap=ListedColormap([colours[0]]), rasterized=True)
+    axes.plot(value, in_degrees(sweep["release_angle_largest"]), "_", color=colours[1], markersize=3,
+              label="last angle that stays")
     axes.plot(value, in_degrees(sweep["release_angle_scan"]), ".", color=colours[2], markersize=4,
               label="first failure of a scan in whole degrees")
     axes.plot(value, in_degrees(sweep["release_angle"]), color=colours[3], lw=1.1, label="first gap")
@@ -65,15 +67,18 @@ def draw_alike(axes: Axes, sweep: xarray.Dataset, *, colours: str = UP, legend: 
     """The share that ends alike at all phases of release over the parameter, with its 95 % interval."""
     value, share, low, high = (sweep[name].values for name in ("value", "alike", "alike_low", "alike_high"))
     axes.fill_between(value, 100 * low, 100 * high, color=colours, alpha=0.25, lw=0, label="95 % interval")
-    axes.plot(value, 100 * share, color=colours, marker="o", markersize=3, label=f"alike at all {sweep.attrs['phases']} phases")
+    axes.plot(value, 100 * share, color=colours, marker="o", markersize=3,
+              label=f"alike at all {sweep.attrs['phases']} phases")
     axes.set(xlabel=parameter_text(sweep), ylabel="share of the starts (%)", xlim=(value[0], value[-1]), ylim=(0, None))
     if legend:
         axes.legend(fontsize="small")
     return axes
 
 
-def draw_strobe(axes: Axes, sweep: xarray.Dataset, *, up: bool = True, colours: str | None = None, legend: bool = True) -> Axes:
-    """Strobe points of the walk up or down over the parameter, inverted in the middle; `legend`: which walk, as the title."""
+def draw_strobe(axes: Axes, sweep: xarray.Dataset, *, up: bool = True, colours: str | None = None,
+                legend: bool = True) -> Axes:
+    """Strobe points of the walk up or down over the parameter, inverted in the middle; `legend`: which walk, as the
+    title."""
     value, walk, rad = sweep["value"].values, sweep["sample_walk"].values, drive_unit(sweep["strobe_theta"])
     points = np.mod(sweep["strobe_theta"].values, 2 * np.pi * rad)[:, walk == (0 if up else 1)]
     size = float(np.clip(60 / np.sqrt(points.size), 1.2, 3.2))
@@ -136,7 +141,8 @@ def flutter_figure(sweep: xarray.Dataset) -> Figure:
     return figure
 
 
-def one_panel(panel: Callable[..., Axes], width: float, height: float, **options: bool) -> Callable[[xarray.Dataset], Figure]:
+def one_panel(panel: Callable[..., Axes], width: float, height: float,
+              **options: bool) -> Callable[[xarray.Dataset], Figure]:
     """What makes a page of one panel."""
     def make(sweep: xarray.Dataset) -> Figure:
         figure, (axes,) = new_panels(width, height)

@@ -15,7 +15,8 @@ def add_si(parser: argparse.ArgumentParser, what: str) -> None:
 
 def fixed_si(result: Result, drawn: xarray.Dataset) -> str:
     """The parameters of a scene in SI units that are not swept in the group `drawn`."""
-    swept = {str(drawn.attrs.get(key, "")).removeprefix("pivot_") for key in ("parameter", "x_parameter", "y_parameter")}
+    swept = {str(drawn.attrs.get(key, "")).removeprefix("pivot_")
+             for key in ("parameter", "x_parameter", "y_parameter")}
     return ",  ".join(text for name, text in units.si_parameters(result.pendulum).items() if name not in swept)
 
 

@@ -1,4 +1,5 @@
-"""The window of starts as it is drawn: the order of its cells, its edges, its ticks, in the units of the dataset (kapitza.units)."""
+"""The window of starts as it is drawn: the order of its cells, its edges, its ticks, in the units of the dataset
+(kapitza.units)."""
 
 from typing import Any
 
@@ -19,9 +20,11 @@ class Plane:
         deep = [name for name in ("theta", "velocity") if _is_deep(basin, name)]
         self.centres = {name: str(basin.attrs[f"{name}_centre"]) for name in deep}
         self.widths = {name: str(basin.attrs[f"{name}_width"]) for name in deep}
-        theta, velocity = (basin[f"{name}_offset" if name in self.centres else name].values for name in ("theta", "velocity"))
+        theta, velocity = (basin[f"{name}_offset" if name in self.centres else name].values
+                           for name in ("theta", "velocity"))
         width = _step(theta) * len(theta)
-        self.rad, self.speed = (drive_unit(basin[name]) for name in ("theta", "velocity"))  # one rad, one rad per drive radian
+        # One rad, one rad per drive radian
+        self.rad, self.speed = (drive_unit(basin[name]) for name in ("theta", "velocity"))
         self.turn = TURN * self.rad
         self.whole_circle = abs(width / self.rad - TURN) < 1e-9
         turn = len(theta) // 2 if self.whole_circle and centre == "inverted" else 0
@@ -37,10 +40,12 @@ class Plane:
 
     def show(self, axes: Axes, image: np.ndarray, **colours: Any) -> Any:
         """Draws an image of the cells over the window."""
-        return axes.imshow(image, extent=(*self.theta_range, *self.velocity_range), origin="lower", aspect="auto", **colours)
+        return axes.imshow(image, extent=(*self.theta_range, *self.velocity_range), origin="lower", aspect="auto",
+                           **colours)
 
     def inside(self, theta: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Every image of the points, whole turns apart, in the window (edges included); none where they are not known so finely."""
+        """Every image of the points, whole turns apart, in the window (edges included); none where they are not known
+        so finely."""
         theta, velocity = np.ravel(theta), np.ravel(velocity)
         known = np.isfinite(theta) & (not self.centres)
         theta, velocity = theta[known], velocity[known]
@@ -56,7 +61,8 @@ class Plane:
         """The labels of the cells in which points of the window lie."""
         (left, right), (low, high) = self.theta_range, self.velocity_range
         labels = self.cells(basin["attractor"])
-        rows, columns = (np.clip(np.floor((place - start) / (end - start) * count).astype(int), 0, count - 1) for place, start, end, count
+        rows, columns = (np.clip(np.floor((place - start) / (end - start) * count).astype(int), 0, count - 1) for place,
+                         start, end, count
                          in ((velocity, low, high, labels.shape[0]), (theta, left, right, labels.shape[1])))
         return labels[rows, columns]
 
@@ -74,7 +80,8 @@ class Plane:
 
 
 def _is_deep(basin: xarray.Dataset, name: str) -> bool:
-    """Whether an axis is narrower than its values can tell, so that it is drawn in units of its width, from its centre."""
+    """Whether an axis is narrower than its values can tell, so that it is drawn in units of its width, from its
+    centre."""
     return f"{name}_width" in basin.attrs and _number(basin.attrs[f"{name}_width"]) < DEEP
 
 
@@ -108,7 +115,8 @@ def label_axes(axes: Axes, plane: Plane) -> Axes:
     first = np.ceil(plane.theta_range[0] / unit / step - 1e-9)
     ticks = np.arange(first, plane.theta_range[1] / unit / step + 1e-9) * step
     if width > 2 * steps[0] and "theta" not in plane.widths:
-        axes.set_xticks(ticks * unit, [f"{round(tick)}°".replace("-", "−") if degrees else style.pi_text(tick) for tick in ticks])
+        axes.set_xticks(ticks * unit, [f"{round(tick)}°".replace("-", "−") if degrees else style.pi_text(tick)
+                                       for tick in ticks])
     elif degrees and "theta" not in plane.widths:
         axes.xaxis.set_major_formatter(lambda theta, _: f"{theta:.6g}°".replace("-", "−"))
     if "theta" in plane.widths:

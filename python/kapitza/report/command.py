@@ -9,7 +9,8 @@ from kapitza.result import Result
 
 def main(words: list[str]) -> None:
     """Writes the report of a result file, and prints its name."""
-    parser = Parser(prog="kapitza plot report", description="one self-contained page on a result: pictures, attractors, "
+    parser = Parser(prog="kapitza plot report",
+                    description="one self-contained page on a result: pictures, attractors, "
                                   "numbers, scene, provenance")
     parser.add_argument("file", help="result file")
     parser.add_argument("-o", "--output", type=Path, help="the page (default: FILE's name with .html, here)")
@@ -17,5 +18,6 @@ def main(words: list[str]) -> None:
     output = given.output or Path(f"{Path(given.file).stem or 'report'}.html")
     if output.suffix.lower() != ".html":
         parser.error(wrong_ending(output, [".html"]))
-    output.write_bytes(report(Result(given.file)).encode("utf-8", "replace"))  # a crafted text may hold what UTF-8 does not
+    # A crafted text may hold what UTF-8 does not
+    output.write_bytes(report(Result(given.file)).encode("utf-8", "replace"))
     print(output)

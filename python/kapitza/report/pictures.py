@@ -8,8 +8,8 @@ from kapitza.plots.picture import picture
 from kapitza.result import Result
 
 # Group of a result -> the pictures of it: caption and options. Those with UNITS are in them if the scene is in SI.
-UNITS = {"basin": ("si", "degrees"), "orbit": ("si", "degrees"), "sweep": ("degrees",), "potential": ("degrees",), "line": ("si",),
-         "plane": ("si",)}
+UNITS = {"basin": ("si", "degrees"), "orbit": ("si", "degrees"), "sweep": ("degrees",), "potential": ("degrees",),
+         "line": ("si",), "plane": ("si",)}
 PICTURES: dict[str, list[tuple[str, dict[str, Any]]]] = {
     "basin": [("Every start in the colour of the motion in which it ends; dots are strobe points.", {}),
               ("After how long it is certain where every start ends.", {"quantity": "settling_time"})],

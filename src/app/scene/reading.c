@@ -226,10 +226,10 @@ static void check_studies(kz_reading *reading) {
   kz_complain_at(reading, NULL, "scene", "asks for no study; give at least one of: %s", names);
 }
 
-static void number(kz_node *node, int *next) {
+static void number_nodes(kz_node *node, int *next) {
   for (; node; node = node->next) {
     node->order = (*next)++;
-    number(node->first, next);
+    number_nodes(node->first, next);
   }
 }
 
@@ -286,7 +286,7 @@ static void read_velocities(kz_reading *reading) {
 kz_status kz_reading_keys(kz_reading *reading) {
   int next = 0;
   reading->first = INT_MAX;
-  number(reading->root, &next);
+  number_nodes(reading->root, &next);
   for (const kz_key *key = reading->keys; key->path; key++) KZ_TRY(kz_value_default(key, reading->scene));
   if (reading->root->kind != KZ_MAPPING) {
     kz_complain_at(reading, reading->root, "scene",

@@ -97,7 +97,7 @@ const char *kz_scalar_angle(const kz_node *node, double *value);
  * degrees. *value keeps the text. */
 const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *value);
 /* Writes "0.3" for "0,3" to number [bytes]; false if the text is not a number with one comma. */
-bool kz_scalar_with_a_point(const char *text, char *number, size_t bytes);
+bool kz_scalar_with_a_point(const char *text, char *scene_fuzz_number, size_t bytes);
 /* A number, or one with a unit ("20 cm"); *value is in `unit`; "" accepts any unit of the table. */
 const char *kz_scalar_quantity(const kz_node *node, const char *unit, double *value);
 /* True for a velocity per second ("3 rad/s", "170 deg/s"): *value in rad per drive radian of a pivot at pivot_frequency

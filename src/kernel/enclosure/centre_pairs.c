@@ -39,7 +39,7 @@ KZ_INLINE pair scaled_fine(pair s, pair factor) {
 }
 
 KZ_INLINE triple scaled_deep(triple s, triple factor) {
-  return multiply_triples(renormalise(s), factor);
+  return multiply_triples(renormalise_triple(s), factor);
 }
 
 #define TERMS_deep for (int64_t i = n; i >= 0; i--)
@@ -75,13 +75,13 @@ KZ_INLINE triple scaled_deep(triple s, triple factor) {
 /* Sums coefficients from `first` on, `fine_ones` of them fine: *d_velocity, and times h / (n + 1) *d_theta. */
 KZ_INLINE void sum_series(const kz_speed_class *speed, int first, int fine_ones, const coefficients *w,
                           pair *d_velocity, pair *d_theta) {
-  vector d_velocity_small = broadcast(0), d_theta_small = broadcast(0);
+  vector d_velocity_small = broadcast_value(0), d_theta_small = broadcast_value(0);
   for (int n = P - 1; n >= fine_ones; n--) {
     d_velocity_small += w->coarse[n];
-    d_theta_small = fmadd(broadcast(speed->step[n].high), w->coarse[n], d_theta_small);
+    d_theta_small = multiply_add(broadcast_value(speed->step[n].high), w->coarse[n], d_theta_small);
   }
-  *d_velocity = (pair){d_velocity_small, broadcast(0)};
-  *d_theta = (pair){d_theta_small, broadcast(0)};
+  *d_velocity = (pair){d_velocity_small, broadcast_value(0)};
+  *d_theta = (pair){d_theta_small, broadcast_value(0)};
   for (int n = fine_ones - 1; n >= first; n--) {
     *d_velocity = add_accurate(*d_velocity, w->fine[n]);
     *d_theta = add_accurate(*d_theta, multiply_pairs(w->fine[n], pair_of_constant(speed->step[n])));
@@ -94,7 +94,7 @@ KZ_INLINE triple triple_of(pair x, vector rest) {
 
 /* The state at the end of a step in triples, from the last coefficient to the first. */
 KZ_INLINE void end_step(const kz_speed_class *speed, const coefficients *w, pair d_velocity, pair d_theta, kz_sets *x) {
-  triple v = triple_of(d_velocity, broadcast(0)), theta = triple_of(d_theta, broadcast(0));
+  triple v = triple_of(d_velocity, broadcast_value(0)), theta = triple_of(d_theta, broadcast_value(0));
   for (int n = TRIPLES - 1; n >= 0; n--) {
     const kz_constant h = speed->step[n];
     if (n > 0) v = add_triples(v, w->deep[n]);
@@ -158,6 +158,6 @@ void kz_sets_wrap_triples(kz_sets *x) {
   const triple theta = less_multiple_of(triple_of(x->theta, x->theta_rest), turns, turn);
   x->theta = upper_pair(theta);
   x->theta_rest = theta.part[2];
-  const vector p[2] = {0x1p-147 * absolute(turns), broadcast(0)};
+  const vector p[2] = {0x1p-147 * absolute_lanes(turns), broadcast_value(0)};
   kz_sets_widen(p, x);
 }

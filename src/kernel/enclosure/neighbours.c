@@ -14,19 +14,19 @@ static const double MIN_SINE = 0.25;          /* Least sine of the angle between
 
 /* |A| x. */
 KZ_INLINE void linear_images(const kz_sets *x, vector first, vector second, vector M[2]) {
-  for (int i = 0; i < 2; i++) M[i] = absolute(x->matrix[i][0]) * first + absolute(x->matrix[i][1]) * second;
+  for (int i = 0; i < 2; i++) M[i] = absolute_lanes(x->matrix[i][0]) * first + absolute_lanes(x->matrix[i][1]) * second;
 }
 
 /* |A^-1| p, with 1 / |det A|. */
 KZ_INLINE void solve_frame(const kz_sets *x, vector inverse, const vector p[2], vector z[2]) {
-  z[0] = inverse * (absolute(x->matrix[1][1]) * p[0] + absolute(x->matrix[0][1]) * p[1]);
-  z[1] = inverse * (absolute(x->matrix[1][0]) * p[0] + absolute(x->matrix[0][0]) * p[1]);
+  z[0] = inverse * (absolute_lanes(x->matrix[1][1]) * p[0] + absolute_lanes(x->matrix[0][1]) * p[1]);
+  z[1] = inverse * (absolute_lanes(x->matrix[1][0]) * p[0] + absolute_lanes(x->matrix[0][0]) * p[1]);
 }
 
 /* Lower bound of |det A|. */
 KZ_INLINE vector least_determinant(const kz_sets *x) {
   const vector a = x->matrix[0][0] * x->matrix[1][1], b = x->matrix[0][1] * x->matrix[1][0];
-  return absolute(a - b) - 0x1p-40 * (absolute(a) + absolute(b));
+  return absolute_lanes(a - b) - 0x1p-40 * (absolute_lanes(a) + absolute_lanes(b));
 }
 
 KZ_INLINE bool all_lanes(mask x) {
@@ -44,7 +44,7 @@ static void mark_lost(mask lost, kz_sets *x) {
 }
 
 void kz_sets_check(const kz_speed_class *speed, kz_sets *x) {
-  const mask slow = absolute(x->velocity.high) <= speed->fastest, small = x->reach[0] + x->reach[1] < MAX_REACH;
+  const mask slow = absolute_lanes(x->velocity.high) <= speed->fastest, small = x->reach[0] + x->reach[1] < MAX_REACH;
   const mask good = slow & small & (least_determinant(x) > MIN_DETERMINANT);
   if (all_lanes(good)) return;
   x->too_fast |= ~slow;
@@ -56,16 +56,16 @@ KZ_INLINE vector largest_inverse(kz_sets *x) {
   const vector least = least_determinant(x);
   const mask good = least > MIN_DETERMINANT;
   if (!all_lanes(good)) mark_lost(~good, x);
-  return KZ_ROUND_UP / blend(good, least, broadcast(1));
+  return KZ_ROUND_UP / blend_lanes(good, least, broadcast_value(1));
 }
 
 #define KZ_NEXT next_order
 #define KZ_ARGUMENTS const kz_speed_class *speed, const vector *gain, vector *x, vector *y
 #define KZ_SUM(sum) vector sum
-#define KZ_DAMP(sum) sum = broadcast(speed->damping.high) * y[n]
+#define KZ_DAMP(sum) sum = broadcast_value(speed->damping.high) * y[n]
 #define KZ_PUSH(sum)
 #define KZ_TERMS for (int i = 0; i <= (int)n; i++)
-#define KZ_GAIN(sum) sum = fmadd(gain[i], x[n - i], sum)
+#define KZ_GAIN(sum) sum = multiply_add(gain[i], x[n - i], sum)
 #define KZ_MOVE x[n + 1] = y[n] * speed->step[n].high
 #define KZ_SET(sum) y[n + 1] = sum * -speed->inverse[n].high
 #include "taylor/tangent.inc"
@@ -74,23 +74,24 @@ KZ_INLINE vector largest_inverse(kz_sets *x) {
 KZ_INLINE void move_matrix(const kz_speed_class *speed, int32_t first, int P, const kz_circle *circle, kz_sets *x) {
   vector stiffness[KZ_ORDER_JACOBIAN];
   for (int n = 0; n + 1 < P; n++) {
-    vector s = broadcast(0);
-    for (int j = 0; j <= n; j++) s = fmadd(broadcast(speed->along[first + j].high), circle->cosine[n - j], s);
+    vector s = broadcast_value(0);
+    for (int j = 0; j <= n; j++)
+      s = multiply_add(broadcast_value(speed->along[first + j].high), circle->cosine[n - j], s);
     stiffness[n] = s;
   }
   for (int n = 0; n + 1 < P && speed->has_across; n++)
     for (int j = 0; j <= n; j++)
-      stiffness[n] = fmadd(broadcast(-speed->across[first + j].high), circle->sine[n - j], stiffness[n]);
+      stiffness[n] = multiply_add(broadcast_value(-speed->across[first + j].high), circle->sine[n - j], stiffness[n]);
   for (int column = 0; column < 2; column++) {
     vector a[KZ_ORDER_JACOBIAN], b[KZ_ORDER_JACOBIAN];
     a[0] = x->matrix[0][column];
     b[0] = x->matrix[1][column];
-    vector d_theta = b[0] * speed->step[0].high, d_velocity = broadcast(0);
+    vector d_theta = b[0] * speed->step[0].high, d_velocity = broadcast_value(0);
 #pragma GCC unroll 8 /* KZ_ORDER_TANGENT, so that the coefficients stay in registers */
     for (int n = 0; n + 1 < P; n++) {
       next_order(speed, stiffness, a, b, n);
       d_velocity += b[n + 1];
-      d_theta = fmadd(broadcast(speed->step[n + 1].high), b[n + 1], d_theta);
+      d_theta = multiply_add(broadcast_value(speed->step[n + 1].high), b[n + 1], d_theta);
     }
     x->matrix[0][column] += d_theta;
     x->matrix[1][column] += d_velocity;
@@ -136,8 +137,8 @@ void kz_sets_widen(const vector p[2], kz_sets *x) {
 }
 
 void kz_sets_drop_rest(kz_sets *x) {
-  const vector p[2] = {absolute(x->theta_rest), absolute(x->velocity_rest)};
-  x->theta_rest = x->velocity_rest = broadcast(0);
+  const vector p[2] = {absolute_lanes(x->theta_rest), absolute_lanes(x->velocity_rest)};
+  x->theta_rest = x->velocity_rest = broadcast_value(0);
   kz_sets_widen(p, x);
 }
 
@@ -146,7 +147,7 @@ void kz_sets_wrap(kz_sets *x) {
   static const double turn[3] = KZ_TWO_PI;
   const vector turns = nearest_integer(x->theta.high * (1 / turn[0]));
   x->theta = less_multiple(x->theta, turns, turn);
-  const vector p[2] = {0x1p-99 + 0x1p-105 * absolute(turns), broadcast(0)};
+  const vector p[2] = {0x1p-99 + 0x1p-105 * absolute_lanes(turns), broadcast_value(0)};
   kz_sets_widen(p, x);
 }
 
@@ -161,19 +162,20 @@ void kz_sets_renew_frame(kz_sets *x) {
   const mask first = squares[0] >= squares[1], keep = area * area > MIN_SINE * MIN_SINE * lengths[0] * lengths[1];
   vector a[2], b[2];
   for (int i = 0; i < 2; i++) {
-    a[i] = blend(first, x->matrix[i][0], x->matrix[i][1]);
-    b[i] = blend(first, x->matrix[i][1], x->matrix[i][0]);
+    a[i] = blend_lanes(first, x->matrix[i][0], x->matrix[i][1]);
+    b[i] = blend_lanes(first, x->matrix[i][1], x->matrix[i][0]);
   }
-  const vector reach_a = blend(first, x->reach[0], x->reach[1]), reach_b = blend(first, x->reach[1], x->reach[0]);
-  vector length = blend(first, lengths[0], lengths[1]);
+  const vector reach_a = blend_lanes(first, x->reach[0], x->reach[1]),
+               reach_b = blend_lanes(first, x->reach[1], x->reach[0]);
+  vector length = blend_lanes(first, lengths[0], lengths[1]);
   for (int lane = 0; lane < LANES; lane++) length[lane] = sqrt(length[lane]);
   const vector q[2] = {a[0] / length, a[1] / length};
-  const vector slack = 0x1p-44 * (length * reach_a + (absolute(b[0]) + absolute(b[1])) * reach_b);
-  const vector along = (length * reach_a + absolute(b[0] * q[0] + b[1] * q[1]) * reach_b + slack) * KZ_ROUND_UP;
-  const vector across = (absolute(b[1] * q[0] - b[0] * q[1]) * reach_b + slack) * KZ_ROUND_UP;
-  x->reach[0] = blend(keep, x->reach[0], along);
-  x->reach[1] = blend(keep, x->reach[1], across);
-  for (int i = 0; i < 2; i++) x->matrix[i][0] = blend(keep, x->matrix[i][0], q[i]);
-  x->matrix[0][1] = blend(keep, x->matrix[0][1], -q[1]);
-  x->matrix[1][1] = blend(keep, x->matrix[1][1], q[0]);
+  const vector slack = 0x1p-44 * (length * reach_a + (absolute_lanes(b[0]) + absolute_lanes(b[1])) * reach_b);
+  const vector along = (length * reach_a + absolute_lanes(b[0] * q[0] + b[1] * q[1]) * reach_b + slack) * KZ_ROUND_UP;
+  const vector across = (absolute_lanes(b[1] * q[0] - b[0] * q[1]) * reach_b + slack) * KZ_ROUND_UP;
+  x->reach[0] = blend_lanes(keep, x->reach[0], along);
+  x->reach[1] = blend_lanes(keep, x->reach[1], across);
+  for (int i = 0; i < 2; i++) x->matrix[i][0] = blend_lanes(keep, x->matrix[i][0], q[i]);
+  x->matrix[0][1] = blend_lanes(keep, x->matrix[0][1], -q[1]);
+  x->matrix[1][1] = blend_lanes(keep, x->matrix[1][1], q[0]);
 }

@@ -13,12 +13,13 @@ KZ_INLINE pair add_accurate(pair x, pair y) {
 /* a b, exact. */
 KZ_INLINE pair exact_product(vector a, vector b) {
   const vector p = a * b;
-  return (pair){p, fmadd(a, b, -p)};
+  return (pair){p, multiply_add(a, b, -p)};
 }
 
 /* x - count number, for the integer `count` nearest to x.high / number, |count| <= 2^20; number: its first doubles. */
 KZ_INLINE pair less_multiple(pair x, vector count, const double number[3]) {
-  const pair first = exact_product(count, broadcast(-number[0])), second = exact_product(count, broadcast(-number[1]));
+  const pair first = exact_product(count, broadcast_value(-number[0])),
+             second = exact_product(count, broadcast_value(-number[1]));
   return add_accurate(add_accurate(x, first), two_sum(second.high, second.low - count * number[2]));
 }
 
@@ -27,5 +28,5 @@ KZ_INLINE pair less_multiple(pair x, vector count, const double number[3]) {
 
 /* 1 for an even integer, -1 for an odd one. */
 KZ_INLINE vector sign_of_parity(vector integer) {
-  return 1 - 2 * absolute(integer - 2 * nearest_integer(0.5 * integer));
+  return 1 - 2 * absolute_lanes(integer - 2 * nearest_integer(0.5 * integer));
 }

@@ -95,14 +95,15 @@ void kz_sets_renew_frame(kz_sets *sets);
 kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest, int32_t n_steps);
 /* Sets the constants of a class whose number of steps and order are set. */
 void kz_speed_class_set_constants(const kz_pendulum *pendulum, kz_speed_class *speed);
-KZ_INLINE vector absolute(vector x) {
+KZ_INLINE vector absolute_lanes(vector x) {
   return (vector)((mask)x & INT64_MAX);
 }
 
 /* (B5) Upper bound of |sin theta| on a step: `sine` has an error below 1e-14, and changes by less than the angle. */
 KZ_INLINE vector sine_bound(const kz_speed_class *speed, vector sine, vector v) {
-  const vector most = (absolute(sine) + speed->step[0].high * absolute(v) + speed->max_turn + 1e-14) * KZ_ROUND_UP;
-  return blend(most < 1, most, broadcast(1));
+  const vector most =
+      (absolute_lanes(sine) + speed->step[0].high * absolute_lanes(v) + speed->max_turn + 1e-14) * KZ_ROUND_UP;
+  return blend_lanes(most < 1, most, broadcast_value(1));
 }
 
 KZ_INLINE vector nearest_integer(vector x) {

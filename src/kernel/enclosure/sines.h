@@ -11,15 +11,15 @@ enum { KZ_SINE_TERMS_DOUBLES = 12, KZ_SINE_TERMS_PAIRS = 18, KZ_SINE_TERMS_TRIPL
 KZ_INLINE void sine_in_doubles(pair theta, vector *sine, vector *cosine) {
   static const double pi[3] = KZ_PI;
   const vector count = nearest_integer(theta.high * (1 / pi[0])), sign = sign_of_parity(count);
-  const vector x = fmadd(count, broadcast(-pi[0]), theta.high) - count * pi[1], square = x * x;
-  vector s = broadcast(1), c = broadcast(1);
+  const vector x = multiply_add(count, broadcast_value(-pi[0]), theta.high) - count * pi[1], square = x * x;
+  vector s = broadcast_value(1), c = broadcast_value(1);
   for (int n = 2 * KZ_SINE_TERMS_DOUBLES; n > 0; n -= 2) {
-    s = fmadd(broadcast(-1.0 / (n * (n + 1))), square * s, broadcast(1));
-    c = fmadd(broadcast(-1.0 / ((n - 1) * n)), square * c, broadcast(1));
+    s = multiply_add(broadcast_value(-1.0 / (n * (n + 1))), square * s, broadcast_value(1));
+    c = multiply_add(broadcast_value(-1.0 / ((n - 1) * n)), square * c, broadcast_value(1));
   }
   s *= x;
-  *sine = sign * fmadd(theta.low, c, s);
-  *cosine = sign * fmadd(-theta.low, s, c);
+  *sine = sign * multiply_add(theta.low, c, s);
+  *cosine = sign * multiply_add(-theta.low, s, c);
 }
 
 KZ_INLINE pair pair_of_constant(kz_constant c) {
@@ -30,7 +30,8 @@ KZ_INLINE pair pair_of_constant(kz_constant c) {
 KZ_INLINE pair nested_pairs(pair x, pair y, int n) {
   const double product = (double)n * (n + 1), high = -1 / product;
   const kz_constant c = {high, -fma(high, product, 1) / product, 0};
-  return add_accurate((pair){broadcast(1), broadcast(0)}, multiply_pairs(multiply_pairs(x, y), pair_of_constant(c)));
+  return add_accurate((pair){broadcast_value(1), broadcast_value(0)},
+                      multiply_pairs(multiply_pairs(x, y), pair_of_constant(c)));
 }
 
 /* Sine and cosine of a pair, off by at most 48 u^2 (B1). */
@@ -38,7 +39,7 @@ KZ_INLINE void sine_in_pairs(pair theta, pair *sine, pair *cosine) {
   static const double pi[3] = KZ_PI;
   const vector count = nearest_integer(theta.high * (1 / pi[0])), sign = sign_of_parity(count);
   const pair x = less_multiple(theta, count, pi), square = multiply_pairs(x, x);
-  pair s = {broadcast(1), broadcast(0)}, c = s;
+  pair s = {broadcast_value(1), broadcast_value(0)}, c = s;
   for (int n = 2 * KZ_SINE_TERMS_PAIRS; n > 0; n -= 2) {
     s = nested_pairs(square, s, n);
     c = nested_pairs(square, c, n - 1);
@@ -50,9 +51,9 @@ KZ_INLINE void sine_in_pairs(pair theta, pair *sine, pair *cosine) {
 
 /* x - count number, |count| <= 2^20, with an error of at most 80 u^3 (|x| + |count number|). */
 KZ_INLINE triple less_multiple_of(triple x, vector count, const double number[3]) {
-  accumulate_deep(&x, (triple){{count, broadcast(0), broadcast(0)}},
+  accumulate_deep(&x, (triple){{count, broadcast_value(0), broadcast_value(0)}},
                   KZ_CONSTANT_deep(-number[0], -number[1], -number[2]));
-  return renormalise(x);
+  return renormalise_triple(x);
 }
 
 /* 1 - x y / (n (n + 1)) in triples. */

@@ -38,10 +38,10 @@ KZ_INLINE int64_t row_size(shape size) {
 KZ_INLINE void drift_pairs(shape size, bool odd, const double *row, pair *u, const pair *v) {
   EACH {
     const vector square = v[i].high * v[i].high;
-    vector small = broadcast(0);
-    for (int64_t j = size.n_drift; j >= 2; j--) small = fmadd(small, square, broadcast(row[j]));
+    vector small = broadcast_value(0);
+    for (int64_t j = size.n_drift; j >= 2; j--) small = multiply_add(small, square, broadcast_value(row[j]));
     const pair first =
-        odd ? quick_two_sum(broadcast(row[0]), small * square) : two_sum(broadcast(row[0]), small * square);
+        odd ? quick_two_sum(broadcast_value(row[0]), small * square) : two_sum(broadcast_value(row[0]), small * square);
     const pair step = {first.high, first.low + row[1]};
     u[i] = add_pairs(u[i], odd ? product_unnormalised(v[i], step) : step);
   }
@@ -54,9 +54,9 @@ KZ_INLINE void kick_pairs(shape size, const double *row, bool ordered, const pai
   const double *doubles = row + size.n_pairs;
   EACH r[i] = reduce_half_turns(u[i], &even);
   EACH q[i] = multiply_pairs(r[i], r[i]);
-  EACH p[i] = (pair){broadcast(doubles[size.n_kick - 1]), broadcast(0)};
+  EACH p[i] = (pair){broadcast_value(doubles[size.n_kick - 1]), broadcast_value(0)};
   for (int64_t j = size.n_kick - 2; j >= size.n_pairs; j--)
-    EACH p[i].high = fmadd(p[i].high, q[i].high, broadcast(doubles[j]));
+    EACH p[i].high = multiply_add(p[i].high, q[i].high, broadcast_value(doubles[j]));
   if (ordered)
     for (int64_t j = size.n_pairs - 1; j >= 0; j--) EACH p[i] = ordered_horner_step(p[i], q[i], row + 2 * j);
   else
@@ -71,8 +71,9 @@ KZ_INLINE void kick_even_pairs(shape size, const double *row, const pair *u, pai
   const double *doubles = row + size.n_pairs;
   EACH {
     const pair r = reduce_half_turns(u[i], &even), q = multiply_pairs(r, r);
-    pair p = {broadcast(doubles[size.n_kick - 1]), broadcast(0)};
-    for (int64_t j = size.n_kick - 2; j >= size.n_pairs; j--) p.high = fmadd(p.high, q.high, broadcast(doubles[j]));
+    pair p = {broadcast_value(doubles[size.n_kick - 1]), broadcast_value(0)};
+    for (int64_t j = size.n_kick - 2; j >= size.n_pairs; j--)
+      p.high = multiply_add(p.high, q.high, broadcast_value(doubles[j]));
     for (int64_t j = size.n_pairs - 1; j >= 0; j--) p = horner_step(p, q, row + 2 * j);
     v[i] = add_pairs(v[i], negate_pair(p));
   }
@@ -106,7 +107,7 @@ KZ_INLINE void run_stages(bool mirrored, int64_t n_stages, shape size, const dou
     drift_pairs(size, true, row + n_stages * n_row, u, v);
     if (!mirrored) drift_pairs(size, false, row + n_stages * n_row + half, u, v);
     EACH u[i] = reduce_half_turns(u[i], even + i);
-    EACH v[i] = multiply_pairs(v[i], (pair){broadcast(decay[0]), broadcast(decay[1])});
+    EACH v[i] = multiply_pairs(v[i], (pair){broadcast_value(decay[0]), broadcast_value(decay[1])});
     save_pairs(u, lanes->u[0] + first, lanes->u[1] + first);
     save_pairs(v, lanes->v[0] + first, lanes->v[1] + first);
     EACH *(vector *)(turns + first + i * LANES) = 0.5 * even[i];
@@ -138,20 +139,21 @@ KZ_INLINE pair sine_of_half(const kz_displacement *d, pair r) {
 KZ_INLINE void sine_and_cosine(const kz_displacement *d, pair u, pair *sine, pair *cosine) {
   vector even;
   const pair r = reduce_half_turns(u, &even);
-  const vector sign = blend(r.high < 0, broadcast(-1), broadcast(1));
-  const pair size = {sign * r.high, sign * r.low}, rest = subtract_pairs((pair){broadcast(1), broadcast(0)}, size);
+  const vector sign = blend_lanes(r.high < 0, broadcast_value(-1), broadcast_value(1));
+  const pair size = {sign * r.high, sign * r.low},
+             rest = subtract_pairs((pair){broadcast_value(1), broadcast_value(0)}, size);
   const mask far = size.high > 0.5;
-  const pair folded = {blend(far, rest.high, size.high), blend(far, rest.low, size.low)};
+  const pair folded = {blend_lanes(far, rest.high, size.high), blend_lanes(far, rest.low, size.low)};
   const pair s = sine_of_half(d, folded);
   *sine = (pair){sign * s.high, sign * s.low};
-  *cosine = sine_of_half(d, subtract_pairs((pair){broadcast(0.5), broadcast(0)}, size));
+  *cosine = sine_of_half(d, subtract_pairs((pair){broadcast_value(0.5), broadcast_value(0)}, size));
 }
 
 /* Adds factor (c[0] + c[1] square + ..) to a displacement, in pairs if n_pairs > 0. */
 KZ_INLINE pair add_powers(pair shift, int64_t n, int64_t n_pairs, const double *c, pair factor, pair square) {
   const pair p = evaluate_pairs(n, n_pairs, c, square);
   if (n_pairs > 0) return add_pairs(shift, product_unnormalised(factor, p));
-  return (pair){shift.high, fmadd(factor.high, p.high, shift.low)};
+  return (pair){shift.high, multiply_add(factor.high, p.high, shift.low)};
 }
 
 /* Adds the displacement to (u, v) of the lanes 0 .. n - 1. */
@@ -160,8 +162,8 @@ void kz_pairs_displace(const kz_displacement *d, int64_t n, kz_pair_lanes *lanes
     vector *const state[2][2] = {{(vector *)(lanes->u[0] + first), (vector *)(lanes->u[1] + first)},
                                  {(vector *)(lanes->v[0] + first), (vector *)(lanes->v[1] + first)}};
     const pair u = {*state[0][0], *state[0][1]}, v = {*state[1][0], *state[1][1]}, square = multiply_pairs(v, v),
-               zero = {broadcast(0), broadcast(0)};
-    pair sine_1, cosine_1, shift[2] = {zero, zero}, sine = zero, cosine = {broadcast(1), broadcast(0)};
+               zero = {broadcast_value(0), broadcast_value(0)};
+    pair sine_1, cosine_1, shift[2] = {zero, zero}, sine = zero, cosine = {broadcast_value(1), broadcast_value(0)};
     sine_and_cosine(d, u, &sine_1, &cosine_1);
     for (int64_t j = 0; j < KZ_HALF_ORDER; j++) {
       if (j > 0) {

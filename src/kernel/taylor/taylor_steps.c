@@ -64,7 +64,7 @@ KZ_INLINE triple inverse_triple(double sign, int64_t n) {
 }
 
 KZ_INLINE pair inverse_pair(double sign, int64_t n) {
-  return (pair){broadcast(sign * inverses[n - 1][0]), broadcast(sign * inverses[n - 1][1])};
+  return (pair){broadcast_value(sign * inverses[n - 1][0]), broadcast_value(sign * inverses[n - 1][1])};
 }
 
 /* Order n is sign total / n. */
@@ -78,7 +78,7 @@ KZ_INLINE void set_fine(coefficients *x, int64_t n, double sign, pair total) {
 }
 
 KZ_INLINE void set_deep(coefficients *x, int64_t n, double sign, triple total) {
-  x->deep[n] = multiply_triples(renormalise(total), inverse_triple(sign, n));
+  x->deep[n] = multiply_triples(renormalise_triple(total), inverse_triple(sign, n));
   x->fine[n] = upper_pair(x->deep[n]);
   x->coarse[n] = x->fine[n].high;
 }
@@ -118,29 +118,29 @@ KZ_INLINE void set_deep(coefficients *x, int64_t n, double sign, triple total) {
 
 /* Sums the orders from 1 on, divided by order + 1 if `integrated`, smallest terms first. */
 KZ_INLINE triple sum_of(const coefficients *x, orders of, bool integrated) {
-  pair total = {broadcast(0), broadcast(0)};
+  pair total = {broadcast_value(0), broadcast_value(0)};
   for (int64_t n = of.last; n > of.fine; n--)
-    total.high += x->coarse[n] * (integrated ? inverse_pair(1, n + 1).high : broadcast(1));
+    total.high += x->coarse[n] * (integrated ? inverse_pair(1, n + 1).high : broadcast_value(1));
   for (int64_t n = of.fine; n > of.deep; n--)
     total = sum_unnormalised(total, integrated ? multiply_pairs(x->fine[n], inverse_pair(1, n + 1)) : x->fine[n]);
   total = quick_two_sum(total.high, total.low);
-  triple whole = {{total.high, total.low, broadcast(0)}};
+  triple whole = {{total.high, total.low, broadcast_value(0)}};
   for (int64_t n = of.deep; n >= 1; n--)
     whole = add_triples(whole, integrated ? multiply_triples(x->deep[n], inverse_triple(1, n + 1)) : x->deep[n]);
   return whole;
 }
 
 KZ_INLINE vector absolute_value(vector x) {
-  return blend(x < 0, -x, x);
+  return blend_lanes(x < 0, -x, x);
 }
 
 KZ_INLINE vector larger_of(vector a, vector b) {
-  return blend(a > b, a, b);
+  return blend_lanes(a > b, a, b);
 }
 
 /* True where orders n - 2 .. n, one of which may vanish by symmetry, are at most a bound; false for NaN. */
 KZ_INLINE mask is_small(const series *x, int64_t n, vector bound) {
-  mask small = broadcast(0) == broadcast(0);
+  mask small = broadcast_value(0) == broadcast_value(0);
   for (int64_t i = n - 2; i <= n; i++)
     small &= (absolute_value(x->w.coarse[i]) <= bound) & (absolute_value(x->s.coarse[i]) <= bound) &
              (absolute_value(x->c.coarse[i]) <= bound);
@@ -149,7 +149,7 @@ KZ_INLINE mask is_small(const series *x, int64_t n, vector bound) {
 
 /* True where the series are complete at the last order, and small enough at `fine` for plain doubles. */
 KZ_INLINE mask is_complete(const series *x, orders of) {
-  vector motion = broadcast(0);
+  vector motion = broadcast_value(0);
   for (int64_t i = 0; i < SIZE_ORDERS; i++)
     motion = larger_of(motion, larger_of(absolute_value(x->w.coarse[i]), absolute_value(x->s.coarse[i])));
   return is_small(x, of.fine, of.coarse * motion) & is_small(x, of.last, of.tolerance * motion);
@@ -171,7 +171,7 @@ KZ_INLINE void save_triple(triple x, double (*to)[KZ_TAYLOR_LANES], int64_t firs
 
 /* Sets lanes outside of the mask to 0, so that nothing overflows. */
 KZ_INLINE triple clear_unless(mask where, triple x) {
-  for (int i = 0; i < 3; i++) x.part[i] = blend(where, x.part[i], broadcast(0));
+  for (int i = 0; i < 3; i++) x.part[i] = blend_lanes(where, x.part[i], broadcast_value(0));
   return x;
 }
 
@@ -223,7 +223,7 @@ KZ_INLINE void advance_orbits(int64_t n, orders of, const kz_taylor_force *force
 void kz_taylor_steps(int64_t n, int32_t rough, const kz_taylor_force *force, kz_taylor_state *state,
                      int32_t *converged) {
   mask complete[CHAINS];
-  for (int64_t j = 0; j < CHAINS; j++) complete[j] = broadcast(0) == broadcast(0);
+  for (int64_t j = 0; j < CHAINS; j++) complete[j] = broadcast_value(0) == broadcast_value(0);
   if (rough)
     advance_orbits(n, ROUGH, force, state, complete);
   else

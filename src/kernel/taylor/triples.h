@@ -11,7 +11,7 @@ typedef struct {
 } triple;
 
 /* Renormalises parts that overlap or cancel. */
-KZ_INLINE triple renormalise(triple x) {
+KZ_INLINE triple renormalise_triple(triple x) {
   const pair b = two_sum(x.part[1], x.part[2]), a = two_sum(x.part[0], b.high), c = two_sum(a.low, b.low);
   return (triple){{a.high, c.high, c.low}};
 }
@@ -19,17 +19,18 @@ KZ_INLINE triple renormalise(triple x) {
 /* x + y; the error is at most 9 u^3 (|x| + |y|). */
 KZ_INLINE triple add_triples(triple x, triple y) {
   const pair a = two_sum(x.part[0], y.part[0]), b = two_sum(x.part[1], y.part[1]), c = two_sum(b.high, a.low);
-  return renormalise((triple){{a.high, c.high, (x.part[2] + y.part[2]) + (b.low + c.low)}});
+  return renormalise_triple((triple){{a.high, c.high, (x.part[2] + y.part[2]) + (b.low + c.low)}});
 }
 
 /* total += a b; its parts may overlap afterwards. */
 KZ_INLINE void accumulate_deep(triple *total, triple a, triple b) {
   const vector *x = a.part, *y = b.part, p = x[0] * y[0], q = x[0] * y[1], r = x[1] * y[0];
   const pair first = two_sum(total->part[0], p), second = two_sum(total->part[1], first.low),
-             third = two_sum(second.high, fmadd(x[0], y[0], -p)), fourth = two_sum(third.high, q),
+             third = two_sum(second.high, multiply_add(x[0], y[0], -p)), fourth = two_sum(third.high, q),
              fifth = two_sum(fourth.high, r);
-  const vector small =
-      fmadd(x[0], y[2], fmadd(x[1], y[1], fmadd(x[2], y[0], fmadd(x[0], y[1], -q) + fmadd(x[1], y[0], -r))));
+  const vector small = multiply_add(
+      x[0], y[2],
+      multiply_add(x[1], y[1], multiply_add(x[2], y[0], multiply_add(x[0], y[1], -q) + multiply_add(x[1], y[0], -r))));
   total->part[0] = first.high;
   total->part[1] = fifth.high;
   total->part[2] += small + ((second.low + third.low) + (fourth.low + fifth.low));
@@ -37,9 +38,9 @@ KZ_INLINE void accumulate_deep(triple *total, triple a, triple b) {
 
 /* x y; the error is at most 39 u^3 |x y|. */
 KZ_INLINE triple multiply_triples(triple x, triple y) {
-  triple product = {{broadcast(0), broadcast(0), broadcast(0)}};
+  triple product = {{broadcast_value(0), broadcast_value(0), broadcast_value(0)}};
   accumulate_deep(&product, x, y);
-  return renormalise(product);
+  return renormalise_triple(product);
 }
 
 /* Rounds to the first two doubles (32 digits). */
@@ -50,7 +51,7 @@ KZ_INLINE pair upper_pair(triple x) {
 /* sign / n for an integer n whose inverse has the first two parts i. */
 KZ_INLINE triple inverse_triple_with(double sign, double n, const double i[2]) {
   const double left = __builtin_fma(-i[1], n, __builtin_fma(-i[0], n, 1.0));
-  return (triple){{broadcast(sign * i[0]), broadcast(sign * i[1]), broadcast(sign * (left / n))}};
+  return (triple){{broadcast_value(sign * i[0]), broadcast_value(sign * i[1]), broadcast_value(sign * (left / n))}};
 }
 
 /* Levels of a series: its first orders are triples ("deep"), the next pairs ("fine"), the last, which are small,
@@ -66,9 +67,9 @@ KZ_INLINE void accumulate_fine(pair *total, pair a, pair b) {
   accumulate_pair(total, a, b);
 }
 KZ_INLINE void accumulate_coarse(vector *total, vector a, vector b) {
-  *total = fmadd(a, b, *total);
+  *total = multiply_add(a, b, *total);
 }
 /* The number a + b + c in all lanes; pairs and doubles drop the last parts. */
-#define KZ_CONSTANT_deep(a, b, c) ((triple){{broadcast(a), broadcast(b), broadcast(c)}})
-#define KZ_CONSTANT_fine(a, b, c) ((pair){broadcast(a), broadcast(b)})
-#define KZ_CONSTANT_coarse(a, b, c) broadcast(a)
+#define KZ_CONSTANT_deep(a, b, c) ((triple){{broadcast_value(a), broadcast_value(b), broadcast_value(c)}})
+#define KZ_CONSTANT_fine(a, b, c) ((pair){broadcast_value(a), broadcast_value(b)})
+#define KZ_CONSTANT_coarse(a, b, c) broadcast_value(a)

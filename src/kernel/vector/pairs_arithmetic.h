@@ -23,7 +23,7 @@ typedef struct {
 } pair;
 
 /* a b + c, rounded once. */
-KZ_INLINE vector fmadd(vector a, vector b, vector c) {
+KZ_INLINE vector multiply_add(vector a, vector b, vector c) {
 #if defined __AVX512F__
   return (vector)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
 #elif defined __FMA__
@@ -35,7 +35,7 @@ KZ_INLINE vector fmadd(vector a, vector b, vector c) {
 }
 
 /* x in every lane. (x + {0} would be an addition.) */
-KZ_INLINE vector broadcast(double x) {
+KZ_INLINE vector broadcast_value(double x) {
 #if defined __AVX512F__
   return (vector)_mm512_set1_pd(x);
 #elif defined __FMA__
@@ -48,7 +48,7 @@ KZ_INLINE vector broadcast(double x) {
 }
 
 /* a where the mask is set, else b. */
-KZ_INLINE vector blend(mask where, vector a, vector b) {
+KZ_INLINE vector blend_lanes(mask where, vector a, vector b) {
   return (vector)((where & (mask)a) | (~where & (mask)b));
 }
 
@@ -87,7 +87,7 @@ KZ_INLINE pair subtract_pairs(pair x, pair y) {
 /* x y as a sum whose parts may overlap by some bits. */
 KZ_INLINE pair product_unnormalised(pair x, pair y) {
   const vector p = x.high * y.high;
-  return (pair){p, fmadd(x.high, y.low, fmadd(x.low, y.high, fmadd(x.high, y.high, -p)))};
+  return (pair){p, multiply_add(x.high, y.low, multiply_add(x.low, y.high, multiply_add(x.high, y.high, -p)))};
 }
 
 /* x y; the error is at most 6.01 u^2 |x y|, u = 2^-53: 2 and 3 from the roundings, 1 from the product of low parts. */
@@ -101,28 +101,28 @@ KZ_INLINE void accumulate_pair(pair *total, pair a, pair b) {
   const vector p = a.high * b.high;
   const pair t = two_sum(total->high, p);
   total->high = t.high;
-  total->low += t.low + fmadd(a.high, b.low, fmadd(a.low, b.high, fmadd(a.high, b.high, -p)));
+  total->low += t.low + multiply_add(a.high, b.low, multiply_add(a.low, b.high, multiply_add(a.high, b.high, -p)));
 }
 
 /* x y + c, c [2] for every lane: a step of Horner's scheme. The parts may overlap by some bits. Terms with x.low come
  * last, because a chain of steps waits only for the high parts. */
 KZ_INLINE pair horner_step(pair x, pair y, const double *c) {
-  const vector p = x.high * y.high, rest = fmadd(x.high, y.low, fmadd(x.high, y.high, -p));
-  const pair s = two_sum(broadcast(c[0]), p);
-  return (pair){s.high, fmadd(x.low, y.high, rest + (s.low + c[1]))};
+  const vector p = x.high * y.high, rest = multiply_add(x.high, y.low, multiply_add(x.high, y.high, -p));
+  const pair s = two_sum(broadcast_value(c[0]), p);
+  return (pair){s.high, multiply_add(x.low, y.high, rest + (s.low + c[1]))};
 }
 
 /* x y + c for |c| >= |x y|. */
 KZ_INLINE pair ordered_horner_step(pair x, pair y, const double *c) {
-  const vector p = x.high * y.high, rest = fmadd(x.high, y.low, fmadd(x.high, y.high, -p));
-  const pair s = quick_two_sum(broadcast(c[0]), p);
-  return (pair){s.high, fmadd(x.low, y.high, rest + (s.low + c[1]))};
+  const vector p = x.high * y.high, rest = multiply_add(x.high, y.low, multiply_add(x.high, y.high, -p));
+  const pair s = quick_two_sum(broadcast_value(c[0]), p);
+  return (pair){s.high, multiply_add(x.low, y.high, rest + (s.low + c[1]))};
 }
 
 /* c[0] + c[1] x + .. with pairs c [n][2], from n_pairs on as doubles. The parts of the result may overlap. */
 KZ_INLINE pair evaluate_pairs(int64_t n, int64_t n_pairs, const double *c, pair x) {
-  pair p = {broadcast(0), broadcast(0)};
-  for (int64_t j = n - 1; j >= n_pairs; j--) p.high = fmadd(p.high, x.high, broadcast(c[2 * j]));
+  pair p = {broadcast_value(0), broadcast_value(0)};
+  for (int64_t j = n - 1; j >= n_pairs; j--) p.high = multiply_add(p.high, x.high, broadcast_value(c[2 * j]));
   for (int64_t j = n_pairs - 1; j >= 0; j--) p = horner_step(p, x, c + 2 * j);
   return p;
 }

@@ -24,7 +24,7 @@ typedef struct {
   int64_t count, first;
 } walk;
 
-static void order(const kz_reference_labels *reference, walk *w) {
+static void order_cells(const kz_reference_labels *reference, walk *w) {
   double cost[MOST];
   const double mean_periods = kz_reference_labels_sum(reference).mean_periods,
                cells = (double)kz_unique_cells(reference->plan);
@@ -53,7 +53,7 @@ static kz_status accuracy_choose(const kz_reference_labels *reference, const kz_
   walk w;
   const int64_t step = 2; /* equal for any number of ranks: kept stages come in one order */
   kz_setting_measured measured[2];
-  order(reference, &w);
+  order_cells(reference, &w);
   *choice = (kz_choice){.samples = reference->samples, .flipped = kz_reference_labels_sum(reference).flipped};
   for (w.first = 0; w.first < w.count && !choice->setting; w.first += step) {
     const int64_t left = w.count - w.first;

@@ -26,7 +26,7 @@ typedef struct {
   double p[2][4];
 } cubic;
 
-static double value(const double *p, double s) {
+static double cubic_value(const double *p, double s) {
   return p[0] + s * (p[1] + s * (p[2] + s * p[3]));
 }
 
@@ -51,9 +51,9 @@ static cubic cubic_of(const double *a, const double *b) {
 
 /* The root of a monotone piece, by bisection and secants. */
 static double root_between(const double *p, double target, double low, double high) {
-  double at_low = value(p, low) - target;
+  double at_low = cubic_value(p, low) - target;
   for (int i = 0; i < 60 && high - low > 1e-15; i++) {
-    const double middle = 0.5 * (low + high), at = value(p, middle) - target;
+    const double middle = 0.5 * (low + high), at = cubic_value(p, middle) - target;
     if ((at < 0) == (at_low < 0))
       low = middle, at_low = at;
     else
@@ -78,7 +78,7 @@ static int roots_of(const double *p, double target, double *root) {
   }
   cut[cuts++] = 1;
   for (int i = 0; i + 1 < cuts; i++)
-    if ((value(p, cut[i]) < target) != (value(p, cut[i + 1]) < target))
+    if ((cubic_value(p, cut[i]) < target) != (cubic_value(p, cut[i + 1]) < target))
       root[n++] = root_between(p, target, cut[i], cut[i + 1]);
   return n;
 }
@@ -105,8 +105,9 @@ static void arrange_cross(kz_atlas *atlas, int64_t number, int64_t row, int axis
   const int n = roots_of(c.p[axis], target, root);
   for (int i = 0; i < n; i++) {
     if (!classes) {
-      arrange_add(crossings,
-                  (kz_atlas_crossing){.at = value(c.p[other], root[i]), .curve = number, .row = row, .share = root[i]});
+      arrange_add(
+          crossings,
+          (kz_atlas_crossing){.at = cubic_value(c.p[other], root[i]), .curve = number, .row = row, .share = root[i]});
       continue;
     }
     const double s = root[i], form = a[KZ_ROW_FORM] + s * (b[KZ_ROW_FORM] - a[KZ_ROW_FORM]);
@@ -123,7 +124,7 @@ static void arrange_cross(kz_atlas *atlas, int64_t number, int64_t row, int axis
     const double d = there ? kz_kind_determinant(&curve->kind.of, pendulum.beta) : 0;
     const double wide[2] = {kz_atlas_band(&curve->kind, d, a[KZ_ROW_FORM], fabs(a[KZ_ROW_SIDE + other])),
                             kz_atlas_band(&curve->kind, d, b[KZ_ROW_FORM], fabs(b[KZ_ROW_SIDE + other]))};
-    kz_atlas_crossing crossing = {.at = value(c.p[other], s),
+    kz_atlas_crossing crossing = {.at = cubic_value(c.p[other], s),
                                   .width = exp((1 - s) * log(wide[0]) + s * log(wide[1])),
                                   .class = kz_atlas_class_number(atlas, &own),
                                   .change = change,

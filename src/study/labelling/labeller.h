@@ -57,7 +57,7 @@ static inline kz_start kz_start_at(double theta, double velocity) {
 }
 
 /* Labels n items, item [n] (NULL: 0, 1, ...): label [n]. `round` numbers stages. Collective if there is a run. */
-kz_status kz_label_items(const kz_labeller *labeller, int round, int64_t n, const int64_t *item, kz_label *label);
+kz_status kz_label_items(const kz_labeller *labeller, int round, int64_t n, const int64_t *item, kz_label *label_deep);
 /* The first level of it, by this process alone; KZ_STOPPED if the run is to stop. And the further levels, for items
  * that it left doubtful: in, label [n] is what it has found. */
 kz_status kz_label_first(const kz_labeller *labeller, int64_t n, const int64_t *item, kz_label *label);

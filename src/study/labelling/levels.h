@@ -44,8 +44,8 @@ void kz_decide_in_quads(kz_dynamics *dynamics, const kz_start *start, int64_t ma
 bool kz_start_is_trapped(kz_dynamics *dynamics, const kz_start *start);
 
 /* Evidence of a label as files have it; settled = it has an id. A start inside a region has its own value. */
-static inline uint8_t kz_file_evidence(const kz_label *label, bool settled) {
-  if (label->evidence == KZ_UNDECIDED) return KZ_UNDECIDED;
+static inline uint8_t kz_file_evidence(const kz_label *frame_label, bool settled) {
+  if (frame_label->evidence == KZ_UNDECIDED) return KZ_UNDECIDED;
   if (!settled) return KZ_UNSETTLED;
-  return label->evidence == KZ_FOLLOWED && label->periods == 0 ? KZ_INSIDE : label->evidence;
+  return frame_label->evidence == KZ_FOLLOWED && frame_label->periods == 0 ? KZ_INSIDE : frame_label->evidence;
 }

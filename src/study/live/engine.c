@@ -138,7 +138,7 @@ static kz_status question_label(void *question) {
 }
 
 /* Labels the starts, which may find attractors. A frame of this pendulum may be half done: its threads wait. */
-static kz_status label(kz_engine *engine, kz_prepared *r, kz_question *q) {
+static kz_status engine_label(kz_engine *engine, kz_prepared *r, kz_question *q) {
   const int64_t known = kz_dynamics_count(r->dynamics);
   pthread_rwlock_wrlock(&engine->changing);
   const kz_status status = kz_border_guard(question_label, q);
@@ -160,7 +160,7 @@ static kz_status label_part(kz_engine *engine, kz_prepared *r, int64_t n, const 
                    .n = n,
                    .start = coordinate,
                    .start_error = start_error};
-  KZ_TRY(label(engine, r, &q));
+  KZ_TRY(engine_label(engine, r, &q));
   memcpy(found, q.label, (size_t)n * sizeof *found);
   memcpy(error, q.error, (size_t)n * sizeof *error);
   return KZ_OK;
@@ -199,6 +199,6 @@ kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, c
   KZ_AUTOFREE_BY(kz_question_free)
   kz_question q = {
       .scene = &r->scene, .dynamics = r->dynamics, .max_periods = r->search.max_periods, .n = n, .start = start};
-  KZ_TRY(label(engine, r, &q));
+  KZ_TRY(engine_label(engine, r, &q));
   return kz_question_answer(&q, &r->catalogue.list, endings);
 }

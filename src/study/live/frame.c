@@ -82,7 +82,7 @@ static kz_status follow_again(void *context, int round) {
 }
 
 /* Follows n pending cells; where some do not settle, the attractors that they end on are looked for, once a frame. */
-static kz_status label(making *m, int64_t n) {
+static kz_status frame_label(making *m, int64_t n) {
   const kz_unsettled unsettled = {count_unsettled, frame_pick, follow_again, m};
   const kz_search_on search = {1, MOST_STARTS, NULL};
   if (!m->prepared->dynamics) return KZ_OK;
@@ -170,8 +170,8 @@ static kz_status frame_make(making *m) {
   if (kz_prepared_moves(m->prepared) && m->prepared->dynamics) kz_samples_make(&m->starts, &m->samples);
   for (int64_t i = 0; i < m->frame->coarseness->count; i++) {
     const int64_t coarseness = m->frame->coarseness->values[i];
-    KZ_TRY(label(m, kz_raster_pending(coarseness, m->scene->basin->velocity.count, m->scene->basin->theta.count, m->own,
-                                      m->listed, m->pending)));
+    KZ_TRY(frame_label(m, kz_raster_pending(coarseness, m->scene->basin->velocity.count, m->scene->basin->theta.count,
+                                            m->own, m->listed, m->pending)));
     if (m->prepared->catalogue.list.count >= KZ_NO_LABEL)
       return kz_fail(KZ_REFUSED,
                      "basin.attractors.max_period: the pendulum has %lld attractors, but a frame holds at most %d; use "

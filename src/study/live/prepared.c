@@ -98,7 +98,7 @@ static void prepared_learn(kz_prepared *r) {
   kz_dynamics_learn_regions(r->dynamics, n, state, r->periods, 2 * VISITS);
 }
 
-static kz_status search(kz_prepared *r, const kz_frame *frame) {
+static kz_status search_frame(kz_prepared *r, const kz_frame *frame) {
   r->dynamics = kz_dynamics_create(&r->scene.parameters.pendulum, &r->scene.numerics, r->scene.basin->max_period);
   r->search.max_velocity = kz_dynamics_max_velocity(r->dynamics, &r->search.window);
   if (kz_prepared_moves(r) && frame->atlas) {
@@ -134,7 +134,7 @@ kz_status kz_prepared_make(const kz_scene *scene, double tolerance, const kz_fra
   }
   if (scene->parameters.pendulum.beta <= 0) return KZ_OK; /* without damping nothing attracts */
   choose_numerics(prepared);
-  return search(prepared, frame);
+  return search_frame(prepared, frame);
 }
 
 static void free_catalogue(kz_live_catalogue *catalogue) {
@@ -238,7 +238,7 @@ bool kz_prepared_serves(const kz_prepared *prepared, const kz_scene *scene, doub
 }
 
 /* rad: how far the nearest strobe point of `b` lies from the first one of `a`. Chaotic attractors have none. */
-static double distance(const kz_entry *a, const kz_entry *b) {
+static double entries_distance(const kz_entry *a, const kz_entry *b) {
   double nearest = a->row.period == 0 ? 0 : INFINITY;
   for (int i = 0; i < b->row.period; i++)
     nearest = fmin(nearest, hypot(remainder(a->theta[0] - b->theta[i], 2 * M_PI), a->velocity[0] - b->velocity[i]));
@@ -260,7 +260,7 @@ static int64_t track_of(const kz_live_catalogue *catalogue, int64_t i, const kz_
   for (int64_t j = 0; before && j < before->list.count; j++) {
     const kz_entry *b = before->list.entries + j;
     if (a->row.period != b->row.period || a->row.winding != b->row.winding || a->row.centre != b->row.centre) continue;
-    const double d = distance(a, b);
+    const double d = entries_distance(a, b);
     if (d >= nearest || is_taken(catalogue->track, i, before->track[j])) continue;
     nearest = d;
     number = before->track[j];

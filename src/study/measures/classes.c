@@ -120,7 +120,7 @@ static void classes_join(forest *f, int64_t a, int64_t b) {
 }
 
 /* Numbers the trees in the order of the catalogue of the points where they begin. */
-static void number(const joining *j, int64_t places, forest *f, kz_classes *classes) {
+static void number_classes(const joining *j, int64_t places, forest *f, kz_classes *classes) {
   classes->of = kz_malloc((size_t)places * sizeof *classes->of);
   classes->first_point = kz_malloc((size_t)(places + 1) * sizeof *classes->first_point);
   classes->first_place = kz_malloc((size_t)(places + 1) * sizeof *classes->first_place);
@@ -165,7 +165,7 @@ static void classes_grow(const joining *j, const neighbours *to, kz_classes *cla
       if (from[way] >= 0)
         join_point(&f, kz_point_at(j->points, j->records, from[way]), point, from[way], to[from[way]].to[way]);
   }
-  number(j, places, &f, classes);
+  number_classes(j, places, &f, classes);
 }
 
 void kz_classes_free(kz_classes *classes) {

@@ -29,13 +29,13 @@ int64_t kz_measure_length(const kz_measure *measure, const kz_measured *measured
   return length[measure->shape];
 }
 
-int32_t kz_measures_need(const kz_integers *names) {
+int32_t kz_measures_need(const kz_integers *names_measure) {
   int32_t needs = 0;
-  for (int64_t i = 0; i < names->count; i++) needs |= kz_measures[names->values[i]].needs;
+  for (int64_t i = 0; i < names_measure->count; i++) needs |= kz_measures[names_measure->values[i]].needs;
   return needs;
 }
 
-static bool names(const kz_integers *list, kz_measure_fn measure) {
+static bool rows_names(const kz_integers *list, kz_measure_fn measure) {
   for (int64_t i = 0; i < list->count; i++)
     if (kz_measures[list->values[i]].fill == measure) return true;
   return false;
@@ -43,9 +43,9 @@ static bool names(const kz_integers *list, kz_measure_fn measure) {
 
 const char *kz_measures_lack(const kz_integers *list, const kz_measure_options *options) {
   if (kz_words_repeat(list)) return "names: has a word twice; name each measure once";
-  if (names(list, kz_measure_weighted_share) && !options->has_weight)
+  if (rows_names(list, kz_measure_weighted_share) && !options->has_weight)
     return "weight: is missing, which weighted_share needs; give a mapping of theta and theta_spread";
-  if (names(list, kz_measure_share_within) && options->within == KZ_UNSET_INTEGER)
+  if (rows_names(list, kz_measure_share_within) && options->within == KZ_UNSET_INTEGER)
     return "within: is missing, which share_within needs; give a number of drive periods";
   return kz_sizes_lack(&options->sizes);
 }

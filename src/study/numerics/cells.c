@@ -101,12 +101,12 @@ double kz_axis_step(const kz_axis *axis) {
   return (axis->centre.text[0] ? axis->width.high : axis->max - axis->min) / (double)axis->count;
 }
 
-static double width(const kz_axis *axis) {
+static double axis_width(const kz_axis *axis) {
   return kz_axis_step(axis) * (double)axis->count > DBL_EPSILON ? kz_axis_step(axis) : INFINITY;
 }
 
 double kz_cell_size(const kz_basin_plan *plan) {
-  return fmin(width(&plan->theta), width(&plan->velocity));
+  return fmin(axis_width(&plan->theta), axis_width(&plan->velocity));
 }
 
 /* Half of the width that is added to a window whose cells doubles cannot distinguish. */

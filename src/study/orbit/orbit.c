@@ -18,10 +18,10 @@ static const double CLOSED = 1e-9;
 enum { MOST_PERIODS = 512 };
 
 /* Newton from `start` for period n; the cycle then has its smallest period. */
-static bool close_with(const kz_model *model, int64_t n, kz_state start, kz_cycle *cycle) {
+static bool close_with(const kz_model *model, int64_t n, kz_state orbit_start, kz_cycle *cycle) {
   KZ_AUTOFREE double *theta = kz_malloc((size_t)n * sizeof *theta), *velocity = kz_malloc((size_t)n * sizeof *velocity);
-  theta[0] = start.theta;
-  velocity[0] = start.velocity;
+  theta[0] = orbit_start.theta;
+  velocity[0] = orbit_start.velocity;
   kz_dynamics_close_cycle(&model->pendulum, &model->numerics, n, MAX_DISTANCE, theta, velocity, &cycle->row);
   cycle->period = cycle->row.period;
   cycle->state = (kz_state){theta[0], velocity[0]};
@@ -122,7 +122,7 @@ static kz_status orbit_recall(const kz_listed *known, int64_t id, kz_cycle *cycl
 }
 
 /* Where the motion starts, on every rank; its period if it is a listed attractor. Collective. */
-static kz_status start(kz_orbit *orbit, const kz_run *run, kz_store *store) {
+static kz_status orbit_start_of(kz_orbit *orbit, const kz_run *run, kz_store *store) {
   const kz_orbit_plan *plan = orbit->scene->orbit;
   orbit->cycle = (kz_cycle){.state = {plan->theta, plan->velocity}, .period = orbit_given(plan->period, 0)};
   if (plan->attractor < 0) return KZ_OK;
@@ -184,7 +184,7 @@ static kz_orbit orbit_begin(const kz_scene *scene) {
   return orbit;
 }
 
-static void end(kz_orbit *orbit) {
+static void orbit_close(kz_orbit *orbit) {
   free(orbit->features.amplitude);
   free(orbit->features.phase);
   free(orbit->features.turning);
@@ -194,8 +194,8 @@ static void end(kz_orbit *orbit) {
 }
 
 kz_status kz_orbit_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  KZ_AUTOFREE_BY(end) kz_orbit orbit = orbit_begin(scene);
-  KZ_TRY(start(&orbit, run, store));
+  KZ_AUTOFREE_BY(orbit_close) kz_orbit orbit = orbit_begin(scene);
+  KZ_TRY(orbit_start_of(&orbit, run, store));
   KZ_TRY(skip_transient(&orbit, run));
   if (!store) return KZ_OK;
   KZ_TRY(orbit_follow(&orbit));

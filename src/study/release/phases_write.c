@@ -52,8 +52,8 @@ static kz_status find_phases(void *own, const kz_chunks *chunks, kz_store *store
   return kz_ranks_agree(run->ranks, status);
 }
 
-static double bytes(const kz_scene *scene) {
+static double phases_bytes(const kz_scene *scene) {
   return kz_phases_bytes(scene->release->phases, scene->basin->theta.count * scene->basin->velocity.count);
 }
 
-const kz_basin_part kz_release_part = {.bytes = bytes, .find = find_phases};
+const kz_basin_part kz_release_part = {.bytes = phases_bytes, .find = find_phases};

@@ -73,7 +73,7 @@ static void make_tasks(kz_chart *chart) {
       chart->tasks[chart->n_tasks++] = (kz_curve_task){-1, (int32_t)orders->values[i]};
 }
 
-static kz_chart begin(const kz_scene *scene) {
+static kz_chart chart_begin(const kz_scene *scene) {
   const kz_stability_plan *plan = scene->stability;
   const kz_chart_axes axes = kz_stability_axes(plan);
   kz_chart chart = {.plan = plan,
@@ -143,7 +143,7 @@ static kz_status run_stage(const kz_run *run, const kz_stage *stage, void *recor
 }
 
 kz_status kz_stability_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  KZ_AUTOFREE_BY(stability_release) kz_chart chart = begin(scene);
+  KZ_AUTOFREE_BY(stability_release) kz_chart chart = chart_begin(scene);
   const int64_t points = chart.axes.k.count * chart.axes.m.count, row = kz_chart_row(&chart.axes);
   kz_stage of_points = kz_stage_of_items("chart", points, POINTS, POINTS * sizeof *chart.points, chart_points, &chart);
   of_points.everywhere = false;

@@ -69,7 +69,7 @@ static void catalogue_begin(const kz_pendulum *pendulum, double value, searching
   s->cell = kz_calloc((size_t)s->n_cells + 1, sizeof *s->cell);
 }
 
-static void end(searching *s) {
+static void search_end(searching *s) {
   if (s->dynamics) kz_dynamics_free(s->dynamics);
   free(s->state);
   free(s->label);
@@ -134,7 +134,7 @@ static kz_status sweep_catalogue_discover(searching *s) {
   return kz_search_window(s->run, s->dynamics, &search, s->label);
 }
 
-static kz_status search(searching *s, const kz_pendulum *pendulum, kz_sweep_catalogue *catalogue) {
+static kz_status search_attractors(searching *s, const kz_pendulum *pendulum, kz_sweep_catalogue *catalogue) {
   const kz_sweep_plan *plan = s->scene->sweep;
   KZ_TRY(sweep_catalogue_discover(s));
   if (s->n_cells > 0) KZ_TRY(label_grid(s));
@@ -159,12 +159,12 @@ typedef struct {
 static kz_status sweep_catalogue_tile(void *context, int64_t tile, void *record) {
   const sweeping *sweep = context;
   const kz_scene *scene = sweep->scene;
-  KZ_AUTOFREE_BY(end) searching s = {.scene = scene, .run = sweep->run};
+  KZ_AUTOFREE_BY(search_end) searching s = {.scene = scene, .run = sweep->run};
   kz_pendulum pendulum;
   const double value = kz_sweep_value(scene->sweep, tile);
   if (!kz_sweep_pendulum(scene, value, &pendulum) || pendulum.beta <= 0) return KZ_OK;
   catalogue_begin(&pendulum, value, &s);
-  return search(&s, &pendulum, record);
+  return search_attractors(&s, &pendulum, record);
 }
 
 kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep_catalogue *catalogue) {

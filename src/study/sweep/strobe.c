@@ -70,18 +70,18 @@ static kz_status run_leg(walking *w, const kz_run *run, double *points) {
                        sizeof(strobe_state) + (size_t)(w->values * 2 * w->samples) * sizeof(double), strobe_tile, w);
   KZ_AUTOFREE char *records = kz_malloc(WALKS * stage.record_bytes);
   KZ_TRY(kz_stage_run(run, &stage, records));
-  for (int64_t walk = 0; walk < WALKS; walk++) {
-    const char *record = records + (size_t)walk * stage.record_bytes;
-    memcpy(w->state + walk, record, sizeof *w->state);
+  for (int64_t walk_values = 0; walk_values < WALKS; walk_values++) {
+    const char *record = records + (size_t)walk_values * stage.record_bytes;
+    memcpy(w->state + walk_values, record, sizeof *w->state);
     for (int64_t i = 0; w->samples > 0 && i < w->values && w->first + i < plan->values.count; i++)
-      memcpy(points + (walk * plan->values.count + value_at(plan, walk, w->first + i)) * 2 * w->samples,
+      memcpy(points + (walk_values * plan->values.count + value_at(plan, walk_values, w->first + i)) * 2 * w->samples,
              record + sizeof(strobe_state) + (size_t)i * value, value);
   }
   return KZ_OK;
 }
 
 /* All values, in legs. */
-static kz_status walk(const kz_scene *scene, const kz_run *run, double *points) {
+static kz_status strobe_walk_of(const kz_scene *scene, const kz_run *run, double *points) {
   const kz_sweep_plan *plan = scene->sweep;
   const strobe_state start = {plan->start_theta, plan->start_velocity};
   const int64_t at_once = LEG_PERIODS / (plan->transient + plan->samples);
@@ -113,6 +113,6 @@ static kz_status write_strobe(const kz_scene *scene, const double *points, kz_st
 kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   KZ_AUTOFREE double *points =
       kz_calloc((size_t)(WALKS * scene->sweep->values.count * 2 * scene->sweep->samples), sizeof *points);
-  KZ_TRY(walk(scene, run, points));
+  KZ_TRY(strobe_walk_of(scene, run, points));
   return kz_ranks_agree(run->ranks, store ? write_strobe(scene, points, store, summary) : KZ_OK);
 }

@@ -29,7 +29,7 @@ static void free_deep(void *own) {
   free(d);
 }
 
-static kz_status label(void *own, kz_window_labels *l) {
+static kz_status label_deep(void *own, kz_window_labels *l) {
   deep *d = own;
   if (kz_plan_is_centred(l->plan) && l->plan->method == KZ_METHOD_EXACT) {
     d->images = kz_images_create(l->dynamics, &l->parameters->pendulum, &l->plan->theta, &l->plan->velocity);
@@ -62,7 +62,7 @@ static const char *deep_advice(void *own) {
 
 const kz_basin_part kz_deep_part = {.make = deep_make,
                                     .free = free_deep,
-                                    .label = label,
+                                    .label = label_deep,
                                     .starts = starts_of,
                                     .start_at = start_at,
                                     .advice = deep_advice};

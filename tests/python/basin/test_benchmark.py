@@ -1,4 +1,5 @@
-"""The benchmark's fairness: the two textbook programs label alike and well, and labels of two files are compared rightly."""
+"""The benchmark's fairness: the two textbook programs label alike and well, and labels of two files are compared
+rightly."""
 
 import subprocess
 
@@ -49,7 +50,8 @@ def test_textbook_programs_agree_with_the_truth(built, tmp_path, fig12_attractor
     generator = np.random.default_rng(1)
     theta, velocity = generator.uniform(-np.pi, np.pi, 60), generator.uniform(-2, 2, 60)
     core = min(benchmark.os.sched_getaffinity(0))
-    scalar, lanes = (benchmark.textbook_run(name, fig12_catalogue, theta, velocity, core)[0] for name in ("textbook", "twin"))
+    scalar, lanes = (benchmark.textbook_run(name, fig12_catalogue, theta, velocity, core)[0]
+                     for name in ("textbook", "twin"))
     true_labels = reference_check.reference_labels(fig12_catalogue, theta, velocity)
     assert np.count_nonzero(scalar != lanes) <= 1
     assert np.count_nonzero(lanes != true_labels) <= 3
@@ -58,7 +60,8 @@ def test_textbook_programs_agree_with_the_truth(built, tmp_path, fig12_attractor
 
 @pytest.mark.extensive
 def test_kernel_rows_keep_their_tolerance(built):
-    """The harness of scripts/benchmark kernel, few states: every processed row errs less than it was asked to, and less than others."""
+    """The harness of scripts/benchmark kernel, few states: every processed row errs less than it was asked to, and less
+    than others."""
     core = min(benchmark.os.sched_getaffinity(0))
     peak, probes, rows = benchmark_kernel.harness_rows(benchmark_kernel.PENDULUMS["epsilon = 0.46"], 64, 2, core)
     assert peak > 0.1 and probes.shape == (64, 4)
@@ -68,7 +71,8 @@ def test_kernel_rows_keep_their_tolerance(built):
     assert {row["name"] for row in rows} == {"split6-24", "processed", "GSL-rk8pd"}
     split6 = next(row for row in rows if row["name"] == "split6-24")
     assert split6["error"] < 1e-8
-    assert benchmark_kernel.rival_ns(split6, rows) == min(row["ns"] for row in processed if row["error"] <= split6["error"])
+    assert benchmark_kernel.rival_ns(split6, rows) == min(row["ns"] for row in processed
+                                                          if row["error"] <= split6["error"])
 
 
 def test_an_integrator_that_errs_is_seen_to_err():

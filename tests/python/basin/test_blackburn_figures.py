@@ -1,4 +1,5 @@
-"""The five scenes of Blackburn's Figs 11 to 15: the attractors are those of the literature, each once, and truly closed."""
+"""The five scenes of Blackburn's Figs 11 to 15: the attractors are those of the literature, each once, and truly
+closed."""
 
 import json
 
@@ -7,7 +8,8 @@ import pytest
 from conftest import ROOT, strobed
 from kapitza import Result
 
-REFERENCE = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())["blackburn_fig11_15_attractors_Q5_Omega11"]
+REFERENCE = json.loads((ROOT / "tests" / "literature"
+                        / "reference.json").read_text())["blackburn_fig11_15_attractors_Q5_Omega11"]
 FIGURES = {11: "0.150", 12: "0.300", 13: "0.460", 14: "0.470", 15: "0.520"}
 
 
@@ -33,13 +35,15 @@ def points_of(table, row):
 def apart(points, others):
     """Largest distance of a cycle from successive points of another (the reference lists at most eight)."""
     turns = [np.roll(points, turn, axis=0)[: len(others)] for turn in range(len(points))]
-    return min(max(np.abs(around(turn[:, 0] - others[:, 0])).max(), np.abs(turn[:, 1] - others[:, 1]).max()) for turn in turns)
+    return min(max(np.abs(around(turn[:, 0] - others[:, 0])).max(), np.abs(turn[:, 1] - others[:, 1]).max())
+               for turn in turns)
 
 
 def partner(table, known):
     """The row with the reference's period and winding that lies nearest, and its distance."""
     points = np.array(known["strobe_points"], dtype=float)
-    rows = np.flatnonzero((table["period"].values == known["period"]) & (table["winding"].values == known["winding_total"]))
+    rows = np.flatnonzero((table["period"].values == known["period"])
+                          & (table["winding"].values == known["winding_total"]))
     assert len(rows) > 0, f"{known['kind']} was not found"
     distances = [apart(points_of(table, row), points) for row in rows]
     return rows[np.argmin(distances)], min(distances)

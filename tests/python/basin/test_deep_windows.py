@@ -1,4 +1,5 @@
-"""Labels of deep windows against orbits of the cells themselves, by another integrator, in as many digits as it takes."""
+"""Labels of deep windows against orbits of the cells themselves, by another integrator, in as many digits as it
+takes."""
 
 import functools
 import json
@@ -56,12 +57,14 @@ def run_window(kapitza, folder, name, centre, depth):
 
 def coefficients_of(group):
     """The pendulum of a result as own_orbit takes it."""
-    harmonics = [[tuple(map(float, row)) for row in group[name][:]] if name in group else [] for name in ("vertical", "horizontal")]
+    harmonics = [[tuple(map(float, row)) for row in group[name][:]] if name in group else []
+                 for name in ("vertical", "horizontal")]
     return (*(float(group.attrs[name]) for name in ("k", "beta", "m")), *harmonics, float(group.attrs.get("torque", 0)))
 
 
 def referee(path, centre, depth, cells):
-    """Of random cells: how many the program decided, those whose own orbit ends elsewhere, and how many attractors they show."""
+    """Of random cells: how many the program decided, those whose own orbit ends elsewhere, and how many attractors they
+    show."""
     with h5py.File(path) as file:
         labels, evidence = file["basin/attractor"][:], file["basin/evidence"][:]
         pendulum = coefficients_of(file["pendulum"])
@@ -74,7 +77,8 @@ def referee(path, centre, depth, cells):
     middle = [Fraction(text) for text in centre]
     ends = own_orbit.ends_beside(pendulum, middle, offsets, strobes, depth + 3)
     for end, offset in zip(ends[:ALONE], offsets, strict=False):  # with all its digits
-        assert end == own_orbit.end_of(pendulum, [a + b for a, b in zip(middle, offset, strict=True)], strobes, depth + 3)
+        assert end == own_orbit.end_of(pendulum, [a + b for a, b in zip(middle, offset, strict=True)], strobes,
+                                       depth + 3)
     wrong = [(*cell, end, labels[cell]) for cell, end in zip(decided, ends, strict=True) if end != labels[cell]]
     return len(decided), wrong, len(set(ends))
 
@@ -86,27 +90,32 @@ def test_deep_windows_of_other_drives_are_decided(kapitza, tmp_path, boundary):
 
 
 RELEASES = {"phase": ({}, {"start_phase": 1}, ("-0.27", "1.42", "0.4", "1.42")),
-            "ramp": ({"ramp": {"key": "drive_amplitude", "from": 0.1, "periods": 2.5, "shape": "smooth"}}, {"start_phase": "-40 deg"},
-                     ("-0.27", "0.3", "0.4", "0.9"))}
+            "ramp": ({"ramp": {"key": "drive_amplitude", "from": 0.1, "periods": 2.5, "shape": "smooth"}},
+                     {"start_phase": "-40 deg"}, ("-0.27", "0.3", "0.4", "0.9"))}
 
 
 @pytest.mark.parametrize("name", with_extensive(["ramp"], ["phase"]))
 def test_deep_windows_are_released_as_single_starts_are(kapitza, tmp_path, name):
-    """The window by orbits in many digits, 1e-20 wide; each start by itself in quad precision, whose release is another program's text."""
+    """The window by orbits in many digits, 1e-20 wide; each start by itself in quad precision, whose release is another
+    program's text."""
     keys, released, starts = RELEASES[name]
-    scene = {"pendulum": TILTED | keys, "basin": {"theta": {"count": 40}, "velocity": {"min": -2, "max": 2, "count": 40}} | released}
+    scene = {"pendulum": TILTED | keys,
+             "basin": {"theta": {"count": 40}, "velocity": {"min": -2, "max": 2, "count": 40}} | released}
     (tmp_path / "s.yaml").write_text(json.dumps(scene))
     said = kapitza("where", "s.yaml", *starts, "--boundary", 26, folder=tmp_path).stdout
     centre = [re.search(rf"^{axis} +(\S+)", said, re.M)[1] for axis in ("theta", "velocity")]
-    axes = {axis: {"centre": text, "width": 1e-20, "count": 7} for axis, text in zip(("theta", "velocity"), centre, strict=True)}
+    axes = {axis: {"centre": text, "width": 1e-20, "count": 7} for axis,
+            text in zip(("theta", "velocity"), centre, strict=True)}
     (tmp_path / "deep.yaml").write_text(json.dumps(scene | {"basin": axes | released}))
     kapitza("run", "deep.yaml", folder=tmp_path)
     with h5py.File(tmp_path / "deep.h5") as file:
-        labels, evidence, names = file["basin/attractor"][:], file["basin/evidence"][:], file["attractors/name"].asstr()[:]
+        labels, evidence, names = file["basin/attractor"][:], file["basin/evidence"][:], file[
+            "attractors/name"].asstr()[:]
     getcontext().prec = 60
     seen = set()
     for row, column in [(0, 0), (3, 3), (6, 6)]:
-        start = [Decimal(text) + Decimal(f"{2 * i - 6}e-20") / 14 for text, i in zip(centre, (column, row), strict=True)]
+        start = [Decimal(text) + Decimal(f"{2 * i - 6}e-20") / 14 for text,
+                 i in zip(centre, (column, row), strict=True)]
         end = json.loads(kapitza("where", "s.yaml", *map(str, start), "--json", folder=tmp_path).stdout)
         seen.add(end["name"])
         assert evidence[row, column] != 3 and end["name"] == names[labels[row, column]]

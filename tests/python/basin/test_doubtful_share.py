@@ -1,4 +1,5 @@
-"""The share of labels that steps and rounding may change: its attributes, its sample, and what quad precision says of it."""
+"""The share of labels that steps and rounding may change: its attributes, its sample, and what quad precision says of
+it."""
 
 import subprocess
 import sys
@@ -21,12 +22,14 @@ def doubt(kapitza, folder, *options, ranks=None):
 def test_shares_are_stored_told_and_warned_of(kapitza, tmp_path):
     shares, summary = doubt(kapitza, tmp_path, "--set", "numerics.scheme=split6", "--set", "basin.method=icm",
                             "--set", "basin.icm={theta: 250, velocity: 250}")
-    # Measured: 14.4 % (13.7 .. 15.1) and 0.1 %. So few cells grow no regions: orbits are trapped later, and more lose their labels.
+    # Measured: 14.4 % (13.7 .. 15.1) and 0.1 %. So few cells grow no regions: orbits are trapped later, and more lose
+    # their labels.
     assert 0.11 < shares["doubtful_share_low"] < shares["doubtful_share"] < shares["doubtful_share_high"] < 0.16
     assert shares["doubtful_share_high"] - shares["doubtful_share_low"] < 0.02
     assert 0.0003 < shares["differing_share"] < 0.003, "errors of a coarse map table"
     assert f"{100 * shares['doubtful_share']:.3g} % of the labels are doubtful" in summary
-    assert "warning: more than 5 % of the labels are doubtful" in summary and "differ from the label by integration" in summary
+    assert "warning: more than 5 % of the labels are doubtful" in summary
+    assert "differ from the label by integration" in summary
 
 
 def test_sample_depends_on_the_scene_alone(kapitza, tmp_path):
@@ -46,8 +49,8 @@ def test_a_share_that_was_counted_has_no_interval(kapitza, tmp_path):
 
 
 def test_direct_integration_tells_doubtful_cells_one_by_one(kapitza, tmp_path):
-    """They are the ones that method exact follows in more precision where both take the same steps, which exact takes for a tenth of the
-    tolerance; all others have its labels and settling times."""
+    """They are the ones that method exact follows in more precision where both take the same steps, which exact takes
+    for a tenth of the tolerance; all others have its labels and settling times."""
     def basin(method, tolerance):
         options = settings(f"basin.method={method}", f"numerics.tolerance={tolerance}")
         return run_scene(kapitza, tmp_path, SMALL, *SIDES, *options, name=method)[0].group("basin")
@@ -55,7 +58,8 @@ def test_direct_integration_tells_doubtful_cells_one_by_one(kapitza, tmp_path):
     direct, exact = basin("direct", 1e-13), basin("exact", 1e-12)
     share, doubtful = {name: float(direct.attrs[name]) for name in NAMES}, direct["evidence"].values == 9
     assert np.array_equal(doubtful, np.isin(exact["evidence"].values, (3, 4, 5, 7)))
-    assert share["doubtful_share_low"] == share["doubtful_share"] == share["doubtful_share_high"] == pytest.approx(doubtful.mean())
+    assert share["doubtful_share_low"] == share["doubtful_share"] == share["doubtful_share_high"] == pytest.approx(
+        doubtful.mean())
     assert 0.03 < share["doubtful_share"] < 0.12 and share["differing_share_high"] == 0
     for name in ("attractor", "settling_time"):
         differ = direct[name].values != exact[name].values
@@ -64,5 +68,6 @@ def test_direct_integration_tells_doubtful_cells_one_by_one(kapitza, tmp_path):
 
 @pytest.mark.extensive
 def test_twenty_random_pendulums():
-    done = subprocess.run([sys.executable, ROOT / "benchmarks" / "doubt_coverage.py"], capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, ROOT / "benchmarks" / "doubt_coverage.py"], capture_output=True, text=True,
+                          check=False)
     assert done.returncode == 0, done.stdout + done.stderr

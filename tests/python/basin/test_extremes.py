@@ -8,8 +8,8 @@ import yaml
 from conftest import ROOT, refused_scene, run_scene, settings
 
 SMALL = ROOT / "scenes" / "small.yaml"
-GRID = ["basin.theta.count=16", "basin.velocity.count=16", "basin.attractors.starts=256", "basin.method=direct", "numerics.scheme=split6",
-        "basin.icm={theta: 32, velocity: 32}"]
+GRID = ["basin.theta.count=16", "basin.velocity.count=16", "basin.attractors.starts=256", "basin.method=direct",
+        "numerics.scheme=split6", "basin.icm={theta: 32, velocity: 32}"]
 def pendulum(k=0.01, beta=0.05, m=0.3):
     return f"pendulum={{k: {k!r}, damping: {beta!r}, m: {m!r}}}"
 
@@ -39,7 +39,8 @@ def ends(labels, names):
     return {names[label] if label >= 0 else None for label in np.unique(labels)}
 
 
-# A scene whose steps are too coarse is refused before modelling, with a number of steps that would do, and that number does.
+# A scene whose steps are too coarse is refused before modelling, with a number of steps that would do, and that number
+# does.
 REFUSED = {
     "speed 1e3": [*window(velocity=(-1e3, 1e3, 16))],
     "m = 100": [pendulum(m=100.0)],
@@ -55,7 +56,8 @@ REFUSED = {
 DEAR = ("beta = 1e4", "k = 1e4", "beta = 1e3 with rk4", "one step of split6 at m = 1", "m = 1e4")
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.extensive] * (name in DEAR)) for name in REFUSED])
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.extensive] * (name in DEAR))
+                                  for name in REFUSED])
 def test_refused_with_the_steps_that_would_do(kapitza, model, name, tmp_path):
     message = model(*REFUSED[name], status=2)
     assert "numerics.steps_per_period" in message and ("rad after one drive period" in message or "diverge" in message)
@@ -74,7 +76,8 @@ HOPELESS = {
 }
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.extensive] * (name in DEAR)) for name in HOPELESS])
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.extensive] * (name in DEAR))
+                                  for name in HOPELESS])
 def test_refused_where_no_steps_help(model, name):
     message = model(*HOPELESS[name], status=2)
     assert "not even" in message and "slower starts" in message
@@ -88,7 +91,8 @@ KNOWN = {
     "m = 1e-8": ([pendulum(m=1e-8)], {"down"}),
     "m = 0, gravity upward": ([pendulum(k=-0.01, m=0.0)], {"inverted"}),
     "denormal m": ([pendulum(m=5e-324)], {"down"}),
-    "denormal k": ([pendulum(k=5e-324), "basin.max_periods=50"], {"rotation +1/1", "rotation -1/1", None, "down", "inverted"}),
+    "denormal k": ([pendulum(k=5e-324), "basin.max_periods=50"],
+                   {"rotation +1/1", "rotation -1/1", None, "down", "inverted"}),
     "beta = 40": ([pendulum(beta=40.0), "basin.max_periods=20000"], {"down"}),
     "beta = 40 with rk4": ([pendulum(beta=40.0), "basin.max_periods=20000", "numerics={scheme: rk4}"], {"down"}),
     "beta = 1": ([pendulum(k=0.1, beta=1.0), "basin.max_periods=5000"], {"down"}),
@@ -102,8 +106,8 @@ KNOWN = {
     "velocities of 1e-307": ([*window((-0.1, 0.1, 4), (-1e-307, 1e-307, 4))], {"down"}),
     "one cell": (["basin.theta.count=1", "basin.velocity.count=1"], {"down"}),
     "a window far from every attractor": ([*window((0.5, 0.6, 8), (1.9, 1.95, 8))],
-                                          {"down", "inverted", "rotation +1/1", "rotation -1/1", "rotation +2/6", "rotation -2/6",
-                                           "down 6-nodding"}),
+                                          {"down", "inverted", "rotation +1/1", "rotation -1/1", "rotation +2/6",
+                                           "rotation -2/6", "down 6-nodding"}),
 }
 
 
@@ -127,23 +131,30 @@ def test_damping_too_weak_settles_nothing(model, weak):
 # Other studies are tried with their own numerics and speeds, too: scene; key that the message stands at; what it says.
 SPRING = "pendulum: {k: 0.01, damping: 0.05, m: 0.3}\n"
 TRIED = {
-    "attractors": (SPRING + "attractors: {velocity: {min: -1e3, max: 1}}\n", "2:24: attractors.velocity", "steps or more"),
+    "attractors": (SPRING + "attractors: {velocity: {min: -1e3, max: 1}}\n", "2:24: attractors.velocity",
+                   "steps or more"),
     "steps of the scene": ("numerics: {steps_per_period: 1}\n" + SPRING + "attractors: {velocity: {min: -1, max: 1}}\n",
                            "1:30: numerics.steps_per_period", "steps or more"),
-    "orbit": ("numerics: {scheme: rk4}\npendulum: {k: 0, damping: 1e3, m: 0}\norbit: {start: {theta: 1, velocity: 0}}\n",
+    "orbit": ("numerics: {scheme: rk4}\npendulum: {k: 0, damping: 1e3, m: 0}\norbit: {start: {theta: 1, velocity: "
+              "0}}\n",
               "3:16: orbit.start", "diverge"),
     "last value of a sweep": (SPRING + "sweep: {parameter: m, min: 0.1, max: 100, count: 3, measure: [attractors]}\n",
                               "2:8: sweep", "at m = 100, with"),
-    "releases without damping": ("pendulum: {k: 0.01, damping: 0, m: 100}\nsweep: {parameter: m, min: 1, max: 100, count: 3, "
+    "releases without damping": (
+        "pendulum: {k: 0.01, damping: 0, m: 100}\nsweep: {parameter: m, min: 1, max: 100, count: 3, "
                                  "measure: [release_angle]}\n", "2:8: sweep", "at m = 100, with"),
-    "first value of a sweep": ("pendulum: {quality_factor: 5, drive_frequency: 1, drive_amplitude: 0}\nsweep: {parameter: "
+    "first value of a sweep": (
+        "pendulum: {quality_factor: 5, drive_frequency: 1, drive_amplitude: 0}\nsweep: {parameter: "
                                "drive_frequency, min: 1e-3, max: 10, count: 99, measure: [attractors]}\n", "2:8: sweep",
                                "at drive_frequency = 0.001, with"),
-    "reference of a trade-off": ("numerics: {steps_per_period: 9000}\n" + SPRING + "basin: {velocity: {min: -1e4, max: 1e4}}\n"
+    "reference of a trade-off": ("numerics: {steps_per_period: 9000}\n" + SPRING
+                                 + "basin: {velocity: {min: -1e4, max: 1e4}}\n"
                              "tradeoff: {samples: 10}\n", "3:19: basin.velocity", "for reference labels"),
-    "reference of an accuracy": (SPRING + "basin: {velocity: {min: -1e4, max: 1}, accuracy: 0.9}\n", "2:19: basin.velocity",
+    "reference of an accuracy": (SPRING + "basin: {velocity: {min: -1e4, max: 1}, accuracy: 0.9}\n",
+                                 "2:19: basin.velocity",
                              "for reference labels"),
-    "reference without end": ("pendulum: {k: 9e6, damping: 0.05, m: 0.3}\nbasin: {velocity: {min: -1, max: 1}, accuracy: 0.9}\n",
+    "reference without end": (
+        "pendulum: {k: 9e6, damping: 0.05, m: 0.3}\nbasin: {velocity: {min: -1, max: 1}, accuracy: 0.9}\n",
                           "2:19: basin.velocity", "for reference labels"),
 }
 
@@ -160,14 +171,15 @@ def test_every_study_is_tried_beforehand(kapitza, tmp_path, command, name):
 
 
 def test_an_option_at_fault_is_named(kapitza, tmp_path):
-    done = kapitza("check", SMALL, "--set", "numerics.scheme=split6", "--set", "numerics.steps_per_period=1", folder=tmp_path,
-                   status=2)
+    done = kapitza("check", SMALL, "--set", "numerics.scheme=split6", "--set", "numerics.steps_per_period=1",
+                   folder=tmp_path, status=2)
     assert done.stderr.startswith("kapitza: error: --set numerics.steps_per_period=1: numerics.steps_per_period: with")
 
 
 def test_attractors_and_sweeps_warn_of_loose_steps(kapitza, tmp_path):
     studies = {"at speeds from 25 to 50": "attractors: {velocity: {min: -50, max: 50}, starts: 8}\n",
-               "at m = 8, at speeds from": "sweep: {parameter: m, min: 0.1, max: 8, count: 2, measure: [strobe], transient: 1}\n"}
+               "at m = 8, at speeds from": "sweep: {parameter: m, min: 0.1, max: 8, count: 2, measure: [strobe], "
+                                           "transient: 1}\n"}
     for said, study in studies.items():
         _, summary = run_scene(kapitza, tmp_path, SPRING + study, "--set", "numerics.scheme=split6")
         assert f"warning: {said}" in summary and "steps or more" in summary, summary
@@ -176,7 +188,8 @@ def test_attractors_and_sweeps_warn_of_loose_steps(kapitza, tmp_path):
 @pytest.mark.extensive
 def test_settings_that_do_not_carry_are_said(kapitza, tmp_path):
     """Their labels are random: measured as wrong, and named in a warning."""
-    basin = "basin: {theta: {count: 8}, velocity: {min: -100, max: 100, count: 8}, method: direct, attractors: {starts: 16}}\n"
+    basin = ("basin: {theta: {count: 8}, velocity: {min: -100, max: 100, count: 8}, method: direct, attractors: "
+             "{starts: 16}}\n")
     result, said = run_scene(kapitza, tmp_path, f"numerics: {{scheme: split6, steps_per_period: 96}}\n{SPRING}{basin}"
                              "tradeoff: {samples: 64, settings: [direct-8, direct-96]}\n")
     assert "warning: these settings have too few steps for the speeds of this window: direct-8\n" in said
@@ -208,8 +221,10 @@ def test_coarse_tables_are_warned_of(model):
 
 @pytest.mark.parametrize("method", ["icm", "direct"])
 def test_starts_on_the_seam_and_on_unstable_points(model, method):
-    """Rows at theta = pi (inverted does not attract at m = 0.05) and one cell beside: all labelled, mirrored, and down."""
-    texts = [pendulum(m=0.05), f"basin.method={method}", "basin.icm={theta: 200, velocity: 200}", "basin.max_periods=5000"]
+    """Rows at theta = pi (inverted does not attract at m = 0.05) and one cell beside: all labelled, mirrored, and
+    down."""
+    texts = [pendulum(m=0.05), f"basin.method={method}", "basin.icm={theta: 200, velocity: 200}",
+             "basin.max_periods=5000"]
     labels, names, _, _ = model(*texts, *window((-math.pi, math.pi, 15), (-1e-3, 1e-3, 15)))
     assert ends(labels, names) <= {"down", None}
     assert (labels == -1).sum() <= 1  # rest at the centre may stay where it is
@@ -224,9 +239,11 @@ def test_rest_where_rest_is_unstable_reaches_no_attractor(model, method):
     assert labels[1].tolist() == [-1, -1] and (labels[[0, 2]] >= 0).all()
 
 
-@pytest.mark.parametrize("theta, velocity", [((-math.pi, math.pi, 1), (-2, 2, 10**6)), ((-math.pi, math.pi, 10**6), (-2, 2, 1))])
+@pytest.mark.parametrize("theta, velocity",
+                         [((-math.pi, math.pi, 1), (-2, 2, 10**6)), ((-math.pi, math.pi, 10**6), (-2, 2, 1))])
 def test_lines_of_cells(model, theta, velocity):
-    labels, names, _, attributes = model(*window(theta, velocity), "basin.method=icm", "basin.icm={theta: 1000, velocity: 1000}")
+    labels, names, _, attributes = model(*window(theta, velocity), "basin.method=icm",
+                                         "basin.icm={theta: 1000, velocity: 1000}")
     assert labels.shape == (velocity[2], theta[2]) and (labels >= 0).mean() > 0.99
     assert math.isfinite(attributes["basin_entropy"])
 
@@ -257,13 +274,15 @@ def test_one_period_and_one_start(model):
 FEW = ["basin.theta.count=4", "basin.velocity.count=4", "basin.attractors.starts=8", "basin.attractors.max_period=2"]
 
 
-# A period limit that the scene does not give follows from the damping; one that leaves most motions unsettled is named before the work.
+# A period limit that the scene does not give follows from the damping; one that leaves most motions unsettled is named
+# before the work.
 @pytest.mark.extensive
 def test_periods_follow_from_the_damping(kapitza, tmp_path):
     def check(*texts):
         done = kapitza("check", SMALL, "--all", *settings(*GRID, *FEW, *texts), folder=tmp_path)
         resolved = yaml.safe_load(done.stdout.split("\n\n")[1])
-        return resolved["basin"]["max_periods"], [line for line in done.stdout.splitlines() if line.startswith("warning")]
+        return resolved["basin"]["max_periods"], [line for line in done.stdout.splitlines()
+                                                  if line.startswith("warning")]
 
     assert check() == (2000, [])
     periods, warnings = check("pendulum.quality_factor=80")
@@ -273,7 +292,8 @@ def test_periods_follow_from_the_damping(kapitza, tmp_path):
     limit, (warning,) = check("pendulum.quality_factor=80", "basin.max_periods=500")
     assert limit == 500 and warning.startswith("warning: basin.max_periods: ") and f"{periods}" in warning
     words = settings(*GRID, "pendulum.quality_factor=1e7")
-    assert "warning: basin.max_periods: " in kapitza("run", SMALL, *words, "--time-limit", "1e-6", folder=tmp_path, status=75).stderr
+    assert "warning: basin.max_periods: " in kapitza("run", SMALL, *words, "--time-limit", "1e-6", folder=tmp_path,
+                                                     status=75).stderr
 
 
 def test_few_periods_are_warned_of_before_the_work(kapitza, tmp_path):
@@ -298,12 +318,14 @@ BEYOND = {
     "m = 1e300": ([pendulum(m=1e300)], "pendulum"),
     "m = -1e300, k = 1e300": ([pendulum(m=-1e300, k=1e300)], "pendulum"),
     "Omega = 1e-6": (["pendulum={quality_factor: 5, drive_frequency: 1e-6, drive_amplitude: 0.3}"], "pendulum"),
-    "a sweep up to m = 1e12": (["sweep={parameter: drive_amplitude, min: 0.1, max: 1e12, count: 3, measure: [attractors]}"], "sweep.max"),
+    "a sweep up to m = 1e12": ([
+        "sweep={parameter: drive_amplitude, min: 0.1, max: 1e12, count: 3, measure: [attractors]}"], "sweep.max"),
 }
 
 
 # The commands share the reading of a scene.
-@pytest.mark.parametrize("command, name", [*((["check"], name) for name in BEYOND), (["run"], "m = 1e300"), (["where", 1, 0], "m = 1e300")])
+@pytest.mark.parametrize("command, name", [*((["check"], name) for name in BEYOND), (["run"], "m = 1e300"),
+                                           (["where", 1, 0], "m = 1e300")])
 def test_refused_as_the_scene_is_read(kapitza, name, command, tmp_path):
     texts, key = BEYOND[name]
     assert f": {key}: " in refused_scene(kapitza, tmp_path, SMALL, *command[1:], *settings(*texts), command=command[0])

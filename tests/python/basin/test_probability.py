@@ -1,4 +1,5 @@
-"""How likely a motion is, and whether measured releases agree: shares against known planes, intervals, names, what is refused."""
+"""How likely a motion is, and whether measured releases agree: shares against known planes, intervals, names, what is
+refused."""
 
 import kapitza
 import numpy as np
@@ -9,12 +10,14 @@ from kapitza.probability import wilson
 
 SMALL = ROOT / "scenes" / "small.yaml"
 LAB = {"pendulum": {"length": "20 cm", "frequency": "50 Hz", "amplitude": "8 mm", "quality_factor": 5},
-       "basin": {"theta": {"count": 60}, "velocity": {"min": -0.05, "max": 0.05, "count": 40}, "attractors": {"starts": 128}}}
+       "basin": {"theta": {"count": 60}, "velocity": {"min": -0.05, "max": 0.05, "count": 40},
+                 "attractors": {"starts": 128}}}
 
 
 @pytest.fixture(scope="module")
 def small():
-    return kapitza.run(SMALL, set={"basin.theta.count": 100, "basin.velocity.count": 80, "basin.attractors.starts": 256}, progress=False)
+    return kapitza.run(SMALL, set={"basin.theta.count": 100, "basin.velocity.count": 80,
+                                   "basin.attractors.starts": 256}, progress=False)
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +55,8 @@ def test_fresh_starts_agree_with_the_map(lab):
     """In units of a laboratory; the interval of the map holds the share of starts that are followed, within theirs."""
     of_map = lab.probability("180 deg", "0 rad/s", ("20 deg", "1 rad/s")).set_index("name")
     fresh = lab.probability("180 deg", "0 rad/s", ("20 deg", "1 rad/s"), starts=200, seed=3).set_index("name")
-    assert fresh.loc["inverted", "low"] < of_map.loc["inverted", "high"] and fresh.loc["inverted", "high"] > of_map.loc["inverted", "low"]
+    assert fresh.loc["inverted", "low"] < of_map.loc["inverted", "high"]
+    assert fresh.loc["inverted", "high"] > of_map.loc["inverted", "low"]
     assert fresh["probability"].sum() == pytest.approx(1) and of_map.loc["inverted", "probability"] > 0.5
     again = lab.probability("180 deg", "0 rad/s", ("20 deg", "1 rad/s"), starts=200, seed=3).set_index("name")
     assert again.equals(fresh)
@@ -69,17 +73,20 @@ def test_what_lies_outside_of_the_window_is_said(lab):
 
 
 def test_intervals_are_wilson_s():
-    assert np.array(wilson(7, 20)) == pytest.approx([0.1811918, 0.5671457], abs=1e-6) and wilson(0, 9)[0] == 0 and wilson(9, 9)[1] == 1
+    assert np.array(wilson(7, 20)) == pytest.approx([0.1811918, 0.5671457],
+                                                    abs=1e-6) and wilson(0, 9)[0] == 0 and wilson(9, 9)[1] == 1
 
 
 def test_shares_along_a_sweep_by_name(swept):
     result = kapitza.Result(swept)
     sweep, inverted = result.group("sweep"), result.share("inverted")
     rows = [row for row, name in enumerate(sweep["branch_name"].values) if str(name) == "inverted"]
-    assert inverted.dims == ("value",) and np.allclose(inverted, np.nan_to_num(sweep["fraction"].values[:, rows]).sum(axis=1))
+    assert inverted.dims == ("value",) and np.allclose(inverted,
+                                                       np.nan_to_num(sweep["fraction"].values[:, rows]).sum(axis=1))
     assert (result.share("rotating") >= result.share("rotation +1/1") - 1e-12).all()
     enough = sweep["value"].values[inverted.values >= 0.01]
-    assert result.largest("inverted", 0.01).value == (enough.max() if enough.size else pytest.approx(np.nan, nan_ok=True))
+    assert result.largest("inverted", 0.01).value == (enough.max() if enough.size
+                                                      else pytest.approx(np.nan, nan_ok=True))
     assert np.isnan(result.largest("inverted", 1.1)).all()
 
 
@@ -92,12 +99,14 @@ def test_shares_have_the_intervals_of_the_file(swept):
         if list(sweep["branch_name"].values).count(name) == 1:
             there, share = np.isfinite(sweep["fraction"].values[:, row]), result.share(name)
             for edge in ("low", "high"):
-                assert share[edge].values[there] == pytest.approx(sweep[f"fraction_{edge}"].values[there, row], abs=1e-12)
+                assert share[edge].values[there] == pytest.approx(sweep[f"fraction_{edge}"].values[there, row],
+                                                                  abs=1e-12)
     share = result.share("rotating")
     assert (share.low <= share).all() and (share <= share.high).all() and (share.high - share.low < 0.3).all()
     least = float(share.max()) - 1e-9
     value, low, high = result.largest("rotating", least)
-    assert value == sweep["value"].values[share.values >= least].max() and (np.isnan(low) or low <= value) and value <= high
+    assert value == sweep["value"].values[share.values >= least].max() and (np.isnan(low)
+                                                                            or low <= value) and value <= high
 
 
 def test_shares_of_no_branch(swept):
@@ -129,7 +138,8 @@ def test_measured_releases_beside_the_map(lab, tmp_path):
     assert "3 of 5 releases agree (60.0 %" in repr(found)
     RELEASES.to_csv(tmp_path / "releases.csv", index=False)
     assert lab.agree(tmp_path / "releases.csv").table.equals(found.table)
-    for table, words in ((RELEASES.drop(columns="end"), "column end"), (RELEASES.drop(columns="theta_deg"), "column theta, or theta_deg"),
+    for table, words in ((RELEASES.drop(columns="end"), "column end"),
+                         (RELEASES.drop(columns="theta_deg"), "column theta, or theta_deg"),
                          (RELEASES.assign(end="upright"), "no attractor is called 'upright'"),
                          (RELEASES.assign(velocity_rad_per_s=99.0), "outside the window")):
         with pytest.raises(ValueError, match=words):
@@ -140,10 +150,12 @@ def test_measured_releases_beside_the_map(lab, tmp_path):
 def test_measured_points_on_the_picture(lab, tmp_path):
     axes = lab.plot(points=RELEASES, si=True, degrees=True).axes[0]
     marks = {dots.get_gid(): dots.get_offsets() for dots in axes.collections if dots.get_gid()}
-    assert sorted(marks["agree"][:, 0]) == pytest.approx([-170, -3, 178]) and sorted(marks["differ"][:, 0]) == pytest.approx([-175, 100])
+    assert sorted(marks["agree"][:, 0]) == pytest.approx([-170, -3, 178])
+    assert sorted(marks["differ"][:, 0]) == pytest.approx([-175, 100])
     assert sorted(marks["agree"][:, 1]) == pytest.approx([0.1, 0.2, 1])
     RELEASES.to_csv(tmp_path / "releases.csv", index=False)
-    done = plot("basin", lab.path, "-o", tmp_path / "x.png", "--points", tmp_path / "releases.csv", "--si", "--centre", "inverted")
+    done = plot("basin", lab.path, "-o", tmp_path / "x.png", "--points", tmp_path / "releases.csv", "--si", "--centre",
+                "inverted")
     assert done.returncode == 0 and (tmp_path / "x.png").stat().st_size > 4000
     done = plot("basin", lab.path, "-o", tmp_path / "y.png", "--points", tmp_path / "absent.csv")
     assert done.returncode != 0 and "absent.csv" in done.stderr and "Traceback" not in done.stderr

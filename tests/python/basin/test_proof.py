@@ -1,4 +1,5 @@
-"""basin.proof: proved labels are marked and are the proved ones, whoever worked on them; what cannot be proved is not."""
+"""basin.proof: proved labels are marked and are the proved ones, whoever worked on them; what cannot be proved is
+not."""
 
 import numpy as np
 import pytest
@@ -22,7 +23,8 @@ basin:
   proof: true
   {}
 """
-FIG12 = WINDOW.format("{quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}", 60, 60, "attractors: {starts: 1024}")
+FIG12 = WINDOW.format("{quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}", 60, 60,
+                      "attractors: {starts: 1024}")
 PROVED, IN_PAIRS = 6, 10
 
 
@@ -44,7 +46,8 @@ def test_every_label_is_proved_by_any_number_of_ranks(kapitza, tmp_path):
     assert attributes["other_share_starts"] == 1240 and attributes["other_share_confidence"] == 0.95
     assert np.isclose(attributes["other_share_high"], 1 - 0.05 ** (1 / 1240))
     assert attractors["proved"].all() and (attractors["multiplier_half_width"] < 1e-9).all()
-    assert (attractors["strobe_theta_half_width"] < 1e-11).all() and (attractors["strobe_velocity_half_width"] < 1e-11).all()
+    assert (attractors["strobe_theta_half_width"] < 1e-11).all() and (attractors["strobe_velocity_half_width"]
+                                                                      < 1e-11).all()
     for ranks in (2, 3) if EXTENSIVE else (3,):
         assert datasets(run_scene(kapitza, tmp_path, SCENE, ranks=ranks, name="more")[0].path) == datasets(result.path)
 
@@ -52,13 +55,15 @@ def test_every_label_is_proved_by_any_number_of_ranks(kapitza, tmp_path):
 def test_other_drives_are_proved(kapitza, tmp_path):
     """Without mirror symmetry, and with an overtone: the proof says what the method says."""
     for change in ("pendulum.tilt=5 deg", "pendulum.torque=0.02", "pendulum.harmonics=[{order: 2, amplitude: 0.5}]"):
-        _, attributes, attractors = read(run_scene(kapitza, tmp_path, SCENE, *settings(change, "basin.theta.count=20"))[0])
+        _, attributes, attractors = read(run_scene(kapitza, tmp_path, SCENE,
+                                                   *settings(change, "basin.theta.count=20"))[0])
         assert attributes["proved_share"] == 1 and attributes["refuted"] == 0 and attractors["proved"].all(), change
 
 
 def test_labels_that_the_proof_refutes_are_replaced_and_counted(kapitza, tmp_path):
     """Three periods are too few for many orbits."""
-    without, bare, _ = read(run_scene(kapitza, tmp_path, SCENE, *settings("basin.proof=false", "basin.max_periods=3"))[0])
+    without, bare, _ = read(run_scene(kapitza, tmp_path, SCENE,
+                                      *settings("basin.proof=false", "basin.max_periods=3"))[0])
     result, said = run_scene(kapitza, tmp_path, SCENE, "--set", "basin.max_periods=3")
     cells, attributes, _ = read(result)
     refuted = np.count_nonzero(without["attractor"] == -1)
@@ -69,7 +74,8 @@ def test_labels_that_the_proof_refutes_are_replaced_and_counted(kapitza, tmp_pat
 
 @pytest.mark.extensive
 def test_a_wrong_list_of_attractors_leaves_basins_unproved(kapitza, tmp_path):
-    """Without the cycles of 2 and 6 periods nothing is proved about starts that end on them, and everything about the others."""
+    """Without the cycles of 2 and 6 periods nothing is proved about starts that end on them, and everything about the
+    others."""
     cells, _, attractors = read(run_scene(kapitza, tmp_path, FIG12, "--set", "basin.proof=false")[0])
     few, wrong, _ = read(run_scene(kapitza, tmp_path, FIG12, "--set", "basin.attractors.max_period=1")[0])
     long = np.isin(cells["attractor"], np.flatnonzero(attractors["period"] > 1))
@@ -80,12 +86,14 @@ def test_a_wrong_list_of_attractors_leaves_basins_unproved(kapitza, tmp_path):
 
 @pytest.mark.parametrize("command", ["run", "check"])
 @pytest.mark.parametrize("change, said", [
-    ("basin.velocity={min: -5000, max: 5000, count: 31}", "basin.proof: speeds of 5e+03 rad per drive radian are too fast for a proof"),
+    ("basin.velocity={min: -5000, max: 5000, count: 31}",
+     "basin.proof: speeds of 5e+03 rad per drive radian are too fast for a proof"),
     ("basin.theta={centre: 1, width: 1e-27, count: 40}", "basin.proof: cells below 1e-28 are too small for a proof"),
     ("basin.start_phase=1", "basin.start_phase: basin.proof needs starts at phase 0 and no ramp"),
 ], ids=["fast", "deep", "phase"])
 def test_what_cannot_be_proved_is_refused(kapitza, tmp_path, change, said, command):
-    assert said in refused_scene(kapitza, tmp_path, "numerics: {scheme: split6}\n" + SCENE, "--set", change, command=command)
+    assert said in refused_scene(kapitza, tmp_path, "numerics: {scheme: split6}\n" + SCENE, "--set", change,
+                                 command=command)
 
 
 def test_a_proof_goes_on_where_it_was_stopped(kapitza, tmp_path):
@@ -113,11 +121,13 @@ PENDULUMS = {
 
 
 def contradicted(kapitza, folder, name, count, most):
-    """How many of `most` cells of a window of count x count are proved, and how many of these quad precision labels otherwise."""
+    """How many of `most` cells of a window of count x count are proved, and how many of these quad precision labels
+    otherwise."""
     result, _ = run_scene(kapitza, folder, WINDOW.format(PENDULUMS[name], count, count, "attractors: {starts: 1024}"))
     cells, _, _ = read(result)
     _, (_, _, labels, true_labels) = reference_check.check_file(result.path, most, 1, 2, 4000)
-    proved = np.isin(cells["evidence"], [PROVED, IN_PAIRS])[reference_check.sample_cells(cells["evidence"].shape, most, 1)]
+    proved = np.isin(cells["evidence"],
+                     [PROVED, IN_PAIRS])[reference_check.sample_cells(cells["evidence"].shape, most, 1)]
     return proved.sum(), (labels[proved] != true_labels[proved]).sum()
 
 

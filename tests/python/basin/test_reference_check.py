@@ -12,12 +12,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from kapitza import BadFile
 
-NEEDS_TOOL = pytest.mark.skipif(not reference_check.REFERENCE_LABEL.exists(), reason="build/benchmarks/reference_label is not built")
+NEEDS_TOOL = pytest.mark.skipif(not reference_check.REFERENCE_LABEL.exists(),
+                                reason="build/benchmarks/reference_label is not built")
 
 
 def test_interval_published():
     """Newcombe 1998, table I: 81 of 263, 15 of 148, 0 of 20, 1 of 29."""
-    for wrong, n, low, high in [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0, 0.1611), (1, 29, 0.0061, 0.1718)]:
+    for wrong, n, low, high in [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0, 0.1611),
+                                (1, 29, 0.0061, 0.1718)]:
         assert reference_check.wilson(wrong, n) == pytest.approx((low, high), abs=5e-5)
 
 

@@ -33,8 +33,8 @@ def wrapped(angle):
 
 
 def check_against_grids(kapitza, folder, pendulum, shocks, row):
-    """No cell nearer than the shock leaves the basin on a grid of the whole neighbourhood, and on a fine grid about the shock's end the
-    nearest that does is as far as the shock, to 1e-6."""
+    """No cell nearer than the shock leaves the basin on a grid of the whole neighbourhood, and on a fine grid about the
+    shock's end the nearest that does is as far as the shock, to 1e-6."""
     point = np.array([shocks["strobe_theta"].values[row], shocks["strobe_velocity"].values[row]])
     shock = np.array([shocks["shock_theta"].values[row], shocks["shock_velocity"].values[row]])
     size = float(shocks["shock_size"].values[row])
@@ -57,7 +57,8 @@ def check_against_grids(kapitza, folder, pendulum, shocks, row):
 def test_no_shorter_shock_leaves_the_basin(fig11, kapitza, tmp_path):
     result, _, _ = fig11
     shocks = result.group("shocks")
-    rest = [int(row) for row in np.flatnonzero(np.isfinite(shocks["shock_size"].values) & (shocks["phase"].values == 0))]
+    rest = [int(row)
+            for row in np.flatnonzero(np.isfinite(shocks["shock_size"].values) & (shocks["phase"].values == 0))]
     for row in rest if EXTENSIVE else rest[:1]:
         check_against_grids(kapitza, tmp_path, FIG11, shocks, row)
 
@@ -81,23 +82,28 @@ def test_shocks_are_mirrored_and_agree_with_each_other(fig11):
 @pytest.mark.extensive
 def test_a_laboratory_reads_kicks_in_rad_per_second(kapitza, tmp_path):
     scene = {"pendulum": {"length": "20 cm", "frequency": "12.26 Hz", "amplitude": "3 cm", "quality_factor": 5},
-             "basin": {"theta": {"count": 20}, "velocity": {"min": -2, "max": 2, "count": 20}, "shocks": {"sizes": [0.1]}}}
+             "basin": {"theta": {"count": 20}, "velocity": {"min": -2, "max": 2, "count": 20},
+                       "shocks": {"sizes": [0.1]}}}
     result, summary = run_scene(kapitza, tmp_path, scene)
     kicks = np.abs(result.group("shocks", si=True)["kick"].values)
     said = re.findall(r"^ +\d+ +\S+ -> \d+ +([\d.]+) -> ", summary.split("velocity, rad/s")[1], re.MULTILINE)
-    assert said and [float(one) for one in said] == pytest.approx([kicks[result.group("shocks")["attractor"] == row].min() for row in
-                                                                   dict.fromkeys(result.group("shocks")["attractor"].values)], abs=2e-8)
+    assert said and [float(one) for one in said] == pytest.approx([
+        kicks[result.group("shocks")["attractor"] == row].min() for row in
+                                                                   dict.fromkeys(result.group(
+                                                                       "shocks")["attractor"].values)], abs=2e-8)
 
 
 def test_a_thin_tongue_before_the_boundary(kapitza, tmp_path):
-    """Kicks of 0.441610 and 0.441626 end in rotations; boundaries behind those tongues, at 0.44498203 and 0.44176152, were told instead."""
+    """Kicks of 0.441610 and 0.441626 end in rotations; boundaries behind those tongues, at 0.44498203 and 0.44176152,
+    were told instead."""
     scene = {"pendulum": {"k": 0.15, "damping": 0.07, "m": 0.25},
              "basin": {"theta": {"count": 40}, "velocity": {"min": -2, "max": 2, "count": 40}, "method": "direct",
                        "shocks": {"scale": SCALE}}}
     result, _ = run_scene(kapitza, tmp_path, scene)
     shocks, attractors = result.group("shocks"), result.group("attractors")
     names = attractors["name"].values
-    row = int(np.argmin(np.hypot(shocks["strobe_theta"].values - 0.11200798, shocks["strobe_velocity"].values - 0.33217060)))
+    row = int(np.argmin(np.hypot(shocks["strobe_theta"].values - 0.11200798,
+                                 shocks["strobe_velocity"].values - 0.33217060)))
     assert abs(shocks["kick"].values[row]) == pytest.approx(0.441608, abs=1e-6)
     assert names[shocks["kick_end"].values[row]].startswith("rotation")
 
@@ -113,8 +119,8 @@ def test_any_number_of_ranks(fig11, kapitza, tmp_path):
 def test_a_sweep_has_the_same_shocks(fig11, kapitza, tmp_path):
     """At the value of Fig. 11 the smallest over the strobe points of each attractor."""
     shocks, attractors = fig11[0].group("shocks"), fig11[0].group("attractors")
-    sweep = {"parameter": "drive_amplitude", "min": 0.15, "max": 0.151, "count": 2, "measure": ["resilience"], "starts": 512,
-             "shock_scale": SCALE}
+    sweep = {"parameter": "drive_amplitude", "min": 0.15, "max": 0.151, "count": 2, "measure": ["resilience"],
+             "starts": 512, "shock_scale": SCALE}
     table = run_scene(kapitza, tmp_path, {"pendulum": FIG11, "sweep": sweep})[0].group("sweep").isel(value=0)
     for branch in range(table.sizes["branch"]):
         rows = np.flatnonzero(attractors["name"].values == table["branch_name"].values[branch])

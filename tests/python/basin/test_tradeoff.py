@@ -36,7 +36,8 @@ def reference(kapitza, tmp_path_factory):
 
 def front(wrong, seconds):
     """Settings that no other one beats: none is better in one of both and not worse in the other."""
-    return [not np.any((wrong <= w) & (seconds <= s) & ((wrong < w) | (seconds < s))) for w, s in zip(wrong, seconds, strict=True)]
+    return [not np.any((wrong <= w) & (seconds <= s) & ((wrong < w) | (seconds < s))) for w,
+            s in zip(wrong, seconds, strict=True)]
 
 
 def test_group_holds_what_the_contract_says(reference):
@@ -46,7 +47,8 @@ def test_group_holds_what_the_contract_says(reference):
         wrong, low, high = (group[name][:] for name in ("wrong", "wrong_low", "wrong_high"))
         assert np.all(low <= wrong) and np.all(wrong <= high) and np.all(high < 0.5) and np.all(high > 0)
         assert np.all(group["fraction_error"][:] <= wrong) and np.all(group["wrong_inside"][:] <= wrong)
-        assert np.all(group["seconds"][:] > 0) and (group["pareto"][:] == front(group["wrong"][:], group["seconds"][:])).all()
+        assert np.all(group["seconds"][:] > 0) and (group["pareto"][:]
+                                                    == front(group["wrong"][:], group["seconds"][:])).all()
         assert group.attrs["samples"] == 60 and 0 <= group.attrs["floor"] < 0.2
         assert group.attrs["best_wrong"] == wrong.min()
         assert np.all(np.isnan(group["wrong_distance"][:]) == (wrong == 0))
@@ -78,7 +80,8 @@ def test_the_cache_is_used_extended_and_not_trusted_blindly(kapitza, tmp_path, r
 def test_an_accuracy_within_reach_is_met(kapitza, tmp_path):
     done = kapitza("run", SMALL, "-o", "met.h5", "--set", "pendulum.drive_amplitude=0.150", *without_method(0.98),
                    folder=tmp_path, ranks=2)
-    assert "accuracy 0.98: processed-1e-4 is the cheapest of 1 settings" in done.stdout  # smooth boundaries: 0 of 1000 cells wrong
+    # Smooth boundaries: 0 of 1000 cells wrong
+    assert "accuracy 0.98: processed-1e-4 is the cheapest of 1 settings" in done.stdout
     with h5py.File(tmp_path / "met.h5") as file:
         basin = file["basin"].attrs
         assert basin["wrong_high"] <= 0.02 and basin["setting"] in done.stdout
@@ -97,7 +100,8 @@ def without_method(accuracy):
 @pytest.mark.extensive
 def test_what_no_other_setting_reaches_is_exact(kapitza, tmp_path):
     window = "basin={theta: {count: 20}, velocity: {min: -2, max: 2, count: 20}, accuracy: 0.999}"
-    done = kapitza("run", SMALL, "-o", "exact.h5", "--set", "pendulum.drive_amplitude=0.460", "--set", window, folder=tmp_path)
+    done = kapitza("run", SMALL, "-o", "exact.h5", "--set", "pendulum.drive_amplitude=0.460", "--set", window,
+                   folder=tmp_path)
     assert "accuracy 0.999: method exact is taken" in done.stdout and "other settings is accurate enough" in done.stdout
     assert (tmp_path / "exact.h5.truth").exists()
     with h5py.File(tmp_path / "exact.h5") as file:
@@ -118,7 +122,8 @@ def test_every_method_has_its_line():
 
 def test_a_trade_needs_a_basin(kapitza, tmp_path):
     (tmp_path / "scene.yaml").write_text("pendulum: {k: 0, damping: 0.05, m: 0.5}\ntradeoff: {samples: 50}\n")
-    assert "tradeoff: needs a window; add a basin study" in kapitza("check", "scene.yaml", folder=tmp_path, status=2).stderr
+    assert "tradeoff: needs a window; add a basin study" in kapitza("check", "scene.yaml", folder=tmp_path,
+                                                                    status=2).stderr
 
 
 def test_without_damping_there_is_nothing_to_trade(kapitza, tmp_path):
@@ -144,6 +149,8 @@ def test_intervals_hold_on_pendulums_of_no_scene():
 
 @pytest.mark.extensive
 def test_starts_too_fast_to_judge_are_refused(kapitza, tmp_path):
-    done = kapitza("run", SMALL, "-o", "no.h5", *without_method(0.9), "--set", "basin.velocity.max=1e4", folder=tmp_path, status=2)
-    assert "basin.velocity: 3072 steps a period are too few for reference labels of starts with speed 1e+04" in done.stderr
+    done = kapitza("run", SMALL, "-o", "no.h5", *without_method(0.9), "--set", "basin.velocity.max=1e4",
+                   folder=tmp_path, status=2)
+    assert ("basin.velocity: 3072 steps a period are too few for reference labels of starts with speed 1e+04"
+            in done.stderr)
     assert list(tmp_path.iterdir()) == []

@@ -29,7 +29,8 @@ def test_ctrl_c_ends_a_request_and_not_the_engine(engine):
     """The next requests get their own answers, those of the cancelled ones are passed over."""
     before = signal.signal(signal.SIGALRM, interrupt)
     try:
-        for ask in (lambda: engine.frame(None, (3000, 3000)), lambda: engine.orbit(1, 0, 4000, samples_per_period=4000)):
+        for ask in (lambda: engine.frame(None, (3000, 3000)),
+                    lambda: engine.orbit(1, 0, 4000, samples_per_period=4000)):
             signal.setitimer(signal.ITIMER_REAL, 0.2)
             with pytest.raises(KeyboardInterrupt):
                 ask()
@@ -45,7 +46,8 @@ def test_threads_share_an_engine(engine):
     shapes, found = [(rows, 30) for rows in range(20, 28)], {}
 
     def ask(shape):
-        found[shape] = engine.frame((-3, 3, -1, 1), shape).shape, engine.where(3.1, 0)["name"], len(engine.orbit(1, 0, 2))
+        found[shape] = engine.frame((-3, 3, -1, 1), shape).shape, engine.where(3.1,
+                                                                               0)["name"], len(engine.orbit(1, 0, 2))
 
     threads = [threading.Thread(target=ask, args=[shape], daemon=True) for shape in shapes]
     for thread in threads:
@@ -103,7 +105,8 @@ def test_a_program_that_is_none_is_told(tmp_path):
 
 
 def test_the_launcher_beside_the_program_is_taken(tmp_path, monkeypatch):
-    """It is of the program's own MPI, as in an environment of pip. Another one that a variable names is taken with a warning."""
+    """It is of the program's own MPI, as in an environment of pip. Another one that a variable names is taken with a
+    warning."""
     for name in ("kapitza", "mpiexec", "other"):
         (tmp_path / name).touch(0o755)
     monkeypatch.setenv("KAPITZA", str(tmp_path / "kapitza"))

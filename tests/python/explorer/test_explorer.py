@@ -1,4 +1,5 @@
-"""The explorer's server: its numbers held against runs of the program, what it refuses, what attacks do to it, what it leaves behind."""
+"""The explorer's server: its numbers held against runs of the program, what it refuses, what attacks do to it, what it
+leaves behind."""
 
 import os
 import re
@@ -47,7 +48,8 @@ def striped():
 def frame_of(answers):
     """Labels of the last frame, and the catalogue before it."""
     (catalogue, _), (header, payload) = answers[-2:] if len(answers) == 2 else (answers[0], answers[-1])
-    return np.frombuffer(payload, np.uint8, header["rows"] * header["columns"]).reshape(header["rows"], header["columns"]), catalogue
+    return np.frombuffer(payload, np.uint8, header["rows"] * header["columns"]).reshape(header["rows"],
+                                                                                        header["columns"]), catalogue
 
 
 # ---- answers ----
@@ -57,7 +59,8 @@ def test_a_frame_has_the_labels_of_a_run_of_the_saved_scene(server, kapitza, tmp
     labels, catalogue = frame_of(server.ask(FRAME))
     (tmp_path / "view.yaml").write_text(server.request("scene", VIEW)[1]["text"])
     scene = yaml.safe_load((tmp_path / "view.yaml").read_text())
-    assert scene["pendulum"] == VIEW["pendulum"] and scene["basin"]["method"] == "exact" and "max_periods" not in scene["basin"]
+    assert scene["pendulum"] == VIEW["pendulum"] and scene["basin"]["method"] == "exact"
+    assert "max_periods" not in scene["basin"]
     kapitza("run", "view.yaml", folder=tmp_path)
     basin = Result(tmp_path / "view.h5").group("basin")
     decided = basin["evidence"].values != 3
@@ -80,7 +83,8 @@ def test_what_a_scene_leaves_out_stays_left_out(server):
     assert "max_periods" not in text and "quality_factor: 200" in text
 
 
-@pytest.mark.parametrize("change", [{"pendulum": PENDULUM | {"drive_frequency": -1}}, {"window": WINDOW | {"theta": {"min": 1, "max": 0}}},
+@pytest.mark.parametrize("change", [{"pendulum": PENDULUM | {"drive_frequency": -1}},
+                                    {"window": WINDOW | {"theta": {"min": 1, "max": 0}}},
                                     {"rows": 0}, {"planes": ["colour"]}])
 def test_what_the_program_refuses_is_said_in_its_words_and_ends_nothing(server, change):
     answer = server.ask(FRAME | change)[-1][0]
@@ -129,7 +133,8 @@ def test_views_that_nobody_uses_make_room(striped):
 
 
 @pytest.mark.parametrize("headers", [
-    {"X_Kapitza_Token": None}, {"X_Kapitza_Token": "wrong"}, {"X_Kapitza_Token": "\u00e4"}, {"Origin": "http://example.org"},
+    {"X_Kapitza_Token": None}, {"X_Kapitza_Token": "wrong"}, {"X_Kapitza_Token": "\u00e4"},
+    {"Origin": "http://example.org"},
     {"Host": "example.org"}, {"Host": "localhost.example.org:80"}, {"Origin": "null"}, {"Origin": "http://127.0.0.1:1"},
 ])
 def test_tokens_and_origins_that_are_not_the_pages_own_are_refused(striped, headers):
@@ -137,10 +142,13 @@ def test_tokens_and_origins_that_are_not_the_pages_own_are_refused(striped, head
 
 
 @pytest.mark.parametrize(("host", "origin", "known"), [
-    ("127.0.0.1:8123", None, True), ("localhost:9000", "http://localhost:9000", True), ("[::1]:9000", "http://[::1]:9000", True),
-    ("[::1]", None, True), ("localhost:9000", "http://localhost:9001", False), ("localhost:9000", "https://hub.example.org", True),
+    ("127.0.0.1:8123", None, True), ("localhost:9000", "http://localhost:9000", True),
+    ("[::1]:9000", "http://[::1]:9000", True),
+    ("[::1]", None, True), ("localhost:9000", "http://localhost:9001", False),
+    ("localhost:9000", "https://hub.example.org", True),
     ("hub.example.org", "https://hub.example.org", True), ("hub.example.org", "http://hub.example.org", False),
-    ("hub.example.org:80", None, False), ("evil.org", "http://evil.org", False), ("localhost.evil.org:1", None, False), (None, None, False),
+    ("hub.example.org:80", None, False), ("evil.org", "http://evil.org", False), ("localhost.evil.org:1", None, False),
+    (None, None, False),
 ])
 def test_hosts_and_origins(host, origin, known):
     assert Access(["https://hub.example.org/"]).knows(host, origin) == known
@@ -179,8 +187,8 @@ def test_malformed_requests_are_answered_without_a_traceback(striped):
     """The fixture asserts that nothing was said on the terminal."""
     head = f"Host: 127.0.0.1:{striped.port}\r\nX-Kapitza-Token: {striped.token}\r\n".encode()
     deep = b"[" * 19000
-    for data in (b"GET http://[x HTTP/1.1\r\n" + head + b"\r\n", b"GET /\xff HTTP/1.1\r\n\r\n", b"nonsense\r\n\r\n", b"\0" * 100, b"",
-                 b"POST /state HTTP/1.1\r\n" + head + b"Content-Length: \xc2\xb2\r\n\r\n{}",
+    for data in (b"GET http://[x HTTP/1.1\r\n" + head + b"\r\n", b"GET /\xff HTTP/1.1\r\n\r\n", b"nonsense\r\n\r\n",
+                 b"\0" * 100, b"", b"POST /state HTTP/1.1\r\n" + head + b"Content-Length: \xc2\xb2\r\n\r\n{}",
                  b"POST /state HTTP/1.1\r\n" + head + b"Content-Length: " + b"9" * 5000 + b"\r\n\r\n{}",
                  b"POST /state HTTP/1.1\r\n" + head + b"Content-Length: -1\r\n\r\n{}",
                  b"POST /state HTTP/1.1\r\n" + head + b"Content-Length: 19000\r\n\r\n" + deep,
@@ -302,7 +310,8 @@ def attempt(call, *arguments):
 @pytest.mark.extensive
 def test_a_result_opens_with_what_lies_over_its_basins(model):
     window = {"velocity": {"min": -2, "max": 2}}
-    result = model(PENDULUM, basin={"theta": {"count": 8}, "velocity": window["velocity"] | {"count": 8}, "method": "direct"},
+    result = model(PENDULUM, basin={"theta": {"count": 8}, "velocity": window["velocity"] | {"count": 8},
+                                    "method": "direct"},
                    saddles=window)
     result = result.add("manifolds", manifolds(Pendulum({"pendulum": PENDULUM}), result.group("saddles"), length=1))
     running = Server(result.path)
@@ -310,15 +319,18 @@ def test_a_result_opens_with_what_lies_over_its_basins(model):
     assert running.end()[0] == 0
     saddles, curves = result.group("saddles"), result.group("manifolds")
     assert state["pendulum"]["quality_factor"] == 5 and "max_periods" not in text
-    assert state["overlays"]["saddles"]["points"] == np.column_stack([saddles["strobe_theta"], saddles["strobe_velocity"]]).tolist()
+    assert state["overlays"]["saddles"]["points"] == np.column_stack([saddles["strobe_theta"],
+                                                                      saddles["strobe_velocity"]]).tolist()
     lines = state["overlays"]["manifolds"]["lines"]
     assert len(lines) >= 16 and lines[0][0] == [curves["theta"].values[0], curves["velocity"].values[0]]
     assert all(np.abs(np.diff(line, axis=0)[:, 0]).max() < np.pi for line in lines)  # cut where the angle wraps
 
 
 @pytest.mark.parametrize(("arguments", "message"), with_extensive(
-    [(["nothing.yaml"], "nothing.yaml: cannot be opened"), ([SMALL, "--port", "80"], "is not a port"), ([], "view: SCENE is missing")],
-    [([SMALL, "--port", "8\u00b2"], "is not a port"), ([SMALL, "--set", "pendulum.m=x"], "pendulum.m"), ([ROOT / "README.md"], "README.md"),
+    [(["nothing.yaml"], "nothing.yaml: cannot be opened"), ([SMALL, "--port", "80"], "is not a port"),
+     ([], "view: SCENE is missing")],
+    [([SMALL, "--port", "8\u00b2"], "is not a port"), ([SMALL, "--set", "pendulum.m=x"], "pendulum.m"),
+     ([ROOT / "README.md"], "README.md"),
      ([SMALL, "--origin", "hub.example.org"], "--origin: hub.example.org is not an origin")]))
 def test_what_cannot_be_opened_is_one_line(arguments, message):
     done = subprocess.run([PROGRAM, "view", *arguments, "--no-browser"], capture_output=True, text=True)

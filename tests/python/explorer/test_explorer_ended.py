@@ -43,7 +43,8 @@ def test_a_picture_that_was_cancelled_is_not_the_one_wanted_since(page):
     assert "decided" in page.wait()
 
 
-SHOWN = "((pane) => [pane.top && pane.shows(pane.top), pane.top?.level, [...$('legend').rows].map((row) => row.cells[2].textContent), " \
+SHOWN = "((pane) => [pane.top && pane.shows(pane.top), pane.top?.level, " \
+        "[...$('legend').rows].map((row) => row.cells[2].textContent), " \
         "$('cancel').textContent])(explorer.basins.panes[0])"
 
 
@@ -129,7 +130,8 @@ def test_a_page_keeps_its_own_token(page):
     """The browser's storage may hold the token of a page of an earlier server at the same address."""
     page.run("Object.keys(localStorage).filter((key) => key.startsWith('kapitza /')).forEach((key) => "
              "localStorage.setItem(key, 'stale'))")
-    assert page.module("engine.js", "its.ask('state')") != "Error: the token is wrong; open the address that kapitza view has printed"
+    assert page.module(
+        "engine.js", "its.ask('state')") != "Error: the token is wrong; open the address that kapitza view has printed"
     page.run("explorer.state.change({pendulum: {...explorer.state.pendulum, m: '0.31'}})")
     assert "quick labels" in page.wait()
 
@@ -153,11 +155,13 @@ def test_the_bob_has_the_colour_of_its_end_where_nothing_moves(page):
     assert wait_for(lambda: page.run("Boolean(explorer.basins.motion)"))
     colour = page.run("explorer.basins.panes[0].engine.catalogue.attractors.find(({name}) => "
                       "name === explorer.basins.motion.ending.name).colour")
-    page.run("((its) => its.stage.draw(its.motion, 'pendulum', explorer.state.colours, its.units, null))(explorer.basins)")
+    page.run("((its) => its.stage.draw(its.motion, 'pendulum', explorer.state.colours, its.units, "
+             "null))(explorer.basins)")
     page.run("explorer.basins.panes[0].report()")
     drawn = """(([r, g, b]) => { const {data} = $('pendulum').getContext('2d').getImageData(0, 0, $('pendulum').width,
         $('pendulum').height);
-        for (let i = 0; i < data.length; i += 4) if (data[i] === r && data[i + 1] === g && data[i + 2] === b) return true;
+        for (let i = 0; i < data.length; i += 4) if (data[i] === r && data[i + 1] === g
+          && data[i + 2] === b) return true;
         return false; })(arguments[0])"""
     assert wait_for(lambda: page.run(drawn, [int(colour[at:at + 2], 16) for at in (1, 3, 5)]))
 
@@ -165,7 +169,8 @@ def test_the_bob_has_the_colour_of_its_end_where_nothing_moves(page):
 def test_an_axis_has_room_for_its_numbers(modules):
     """The title of the velocity lay over them; on a desk, and by the larger letters of a lecture."""
     script = """Promise.all(["window.js", "decimal.js"].map((name) => import("/" + name)))
-        .then(([{Range, Window}, {Decimal}]) => [0.2, 2e-2, 3e-3, 2e-4, 1e-9].flatMap((width) => [1, 1.35].map((letters) => {
+        .then(([{Range, Window}, {Decimal}]) => [0.2, 2e-2, 3e-3, 2e-4, 1e-9].flatMap((width) => [1,
+          1.35].map((letters) => {
         const range = (at) => new Range(Decimal.from(at - width / 2), Decimal.from(at + width / 2));
         const plane = new its.Plane(new Window(range(3), range(-0.1241)), 800, 600, letters);
         const context = document.createElement("canvas").getContext("2d");
@@ -197,7 +202,8 @@ def test_back_undoes_values_and_windows_one_hand_at_a_time(page):
     moved = page.run(shown)
     page.key("+")
     assert moved[0] != before[0] and moved[2] == 1 and page.run("explorer.state.past.length") == 2
-    page.run("$('slider-m').dispatchEvent(new KeyboardEvent('keydown', {key: 'z', ctrlKey: true, bubbles: true, cancelable: true}))")
+    page.run("$('slider-m').dispatchEvent(new KeyboardEvent('keydown', {key: 'z', ctrlKey: true, bubbles: true, "
+             "cancelable: true}))")
     assert page.run(shown) == moved
     page.press("back")
     assert page.run(shown) == before
@@ -217,8 +223,10 @@ def test_the_title_follows_the_pendulum(page):
 
 def test_a_spectrum_without_lines_says_why(page):
     """It looked as if something had failed."""
-    drawn = """(() => { const stage = explorer.basins.stage, said = [], own = CanvasRenderingContext2D.prototype.fillText;
-        CanvasRenderingContext2D.prototype.fillText = function (words, ...at) { said.push(words); own.call(this, words, ...at); };
+    drawn = """(() => { const stage = explorer.basins.stage, said = [],
+        own = CanvasRenderingContext2D.prototype.fillText;
+        CanvasRenderingContext2D.prototype.fillText = function (words, ...at) { said.push(words); own.call(this, words,
+          ...at); };
         const motion = (amplitude) => ({ending: {period: 1}, spectrum: () => [[0, 0], [1, amplitude]]});
         stage.draw(motion(arguments[0]), 'spectrum', explorer.state.colours, explorer.basins.units, null);
         CanvasRenderingContext2D.prototype.fillText = own; return said.includes("At rest nothing moves:"); })"""

@@ -1,4 +1,5 @@
-"""The levels of the explorer's page: what a first look shows and says, on a desk and on a phone; what each level adds; one key for all."""
+"""The levels of the explorer's page: what a first look shows and says, on a desk and on a phone; what each level adds;
+one key for all."""
 
 import re
 
@@ -8,14 +9,19 @@ from explorer_page import Page
 
 pytest_plugins = ("explorer_page",)
 
-# What hands can take hold of and see, groups as one: radio buttons, the bar of a window, tabs, the list, a slider with its field.
+# What hands can take hold of and see, groups as one: radio buttons, the bar of a window, tabs, the list, a slider with
+# its field.
 CONTROLS = """[...new Set([...document.querySelectorAll("button, select, input, summary")]
-    .filter((part) => part.offsetParent && part.checkVisibility({visibilityProperty: true}) && !part.closest(".menu > div, dialog"))
+    .filter((part) => part.offsetParent && part.checkVisibility({visibilityProperty: true})
+      && !part.closest(".menu > div, dialog"))
     .map((part) => part.closest("fieldset, .head, #legend, #sliders, .menu") ?? part)
     .map((part) => part.id || part.dataset.head || part.textContent))]"""
-LETTERS = """(() => { const hasText = (part) => [...part.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
-    const seen = [...document.querySelectorAll("body *")].filter((part) => part.offsetParent && part.checkVisibility() && hasText(part));
-    const styles = seen.map((part) => getComputedStyle(part)), weights = new Set(styles.map((style) => style.fontWeight));
+LETTERS = """(() => { const hasText = (part) => [...part.childNodes].some((node) => node.nodeType === 3
+    && node.textContent.trim());
+    const seen = [...document.querySelectorAll("body *")].filter((part) => part.offsetParent
+      && part.checkVisibility() && hasText(part));
+    const styles = seen.map((part) => getComputedStyle(part)),
+      weights = new Set(styles.map((style) => style.fontWeight));
     return [Math.min(...styles.map((style) => parseFloat(style.fontSize))), [...weights]]; })()"""
 # Words that a school book has, with "pendulum"; names of motions are explained beside them.
 SCHOOL = set("""
@@ -47,7 +53,8 @@ def test_each_level_has_few_controls_and_letters_that_are_read(first):
         smallest, weights = first.run(LETTERS)
         assert smallest >= 14 and len(weights) <= 2
         before = found
-    sizes = """(() => { const sizes = [], nothing = () => {}; const fillText = function () { sizes.push(parseFloat(this.font)); };
+    sizes = """(() => { const sizes = [], nothing = () => {};
+        const fillText = function () { sizes.push(parseFloat(this.font)); };
         const context = {fillText, save: nothing, restore: nothing, translate: nothing};
         new its.CanvasSurface(context).text("a", 0, 0, "left"); return sizes; })()"""
     assert first.module("surface.js", sizes) == [14]  # of canvases
@@ -57,30 +64,35 @@ def test_a_first_look_is_in_words_of_a_school_book(first):
     first.wait()
     words = first.run("document.body.innerText.replace(/[−+\\d.%]+/g, ' ')")
     assert {word.lower() for word in re.findall(r"[A-Za-z]+", words)} <= SCHOOL, words
-    explained = "[...document.querySelectorAll('#legend button')].every((one) => one.title && one.querySelector('small').textContent)"
+    explained = ("[...document.querySelectorAll('#legend button')].every((one) => one.title && "
+                 "one.querySelector('small').textContent)")
     assert first.run(explained)
     assert first.run("[document.querySelector('.slider.main label').title, $('map').hidden]") == [
         "how far it is shaken up and down, as a part of the pendulum's length", True]
 
 
 def test_the_bob_the_start_and_the_list_have_one_colour_and_the_pendulum_a_third_of_the_page(first):
-    width, page, colour = first.run("[$('motion').getBoundingClientRect().width, innerWidth, explorer.basins.panes[0].plain.bob]")
+    width, page, colour = first.run(
+        "[$('motion').getBoundingClientRect().width, innerWidth, explorer.basins.panes[0].plain.bob]")
     assert width >= page / 3
     name = first.run("explorer.basins.motion.ending.name")
     line = "[...$('legend').rows].find((row) => row.dataset.name === arguments[0])"
     red, green, blue = bytes.fromhex(colour[1:])
-    assert first.run(f"getComputedStyle({line}.querySelector('.patch')).backgroundColor", name) == f"rgb({red}, {green}, {blue})"
+    assert first.run(f"getComputedStyle({line}.querySelector('.patch')).backgroundColor",
+                     name) == f"rgb({red}, {green}, {blue})"
 
 
 def test_a_phone_has_the_pendulum_and_its_amplitude_on_the_first_screen(first):
     for width, height in ((390, 844), (844, 390)):
         with first.screen(width, height, mobile=True):
-            boxes = "['pendulum', 'slider-m', 'panes'].map((id) => { const {top, bottom, width} = $(id).getBoundingClientRect(); " \
+            boxes = "['pendulum', 'slider-m', 'panes'].map((id) => { " \
+                    "const {top, bottom, width} = $(id).getBoundingClientRect(); " \
                     "return [top, bottom, width]; })"
             assert wait_for(lambda boxes=boxes: first.run(boxes)[0][1] <= 844)
             pendulum, slider, basins = first.run(boxes)
             assert pendulum[1] - pendulum[0] > 100 and slider[1] <= height and pendulum[0] >= 0
-            assert basins[0] < height and (width > height or basins[0] > slider[1])  # beside each other where there is room
+            # Beside each other where there is room
+            assert basins[0] < height and (width > height or basins[0] > slider[1])
 
 
 def test_a_key_shows_the_level_that_has_its_control_and_a_visitor_who_returns_finds_it(first, striped):
@@ -89,7 +101,8 @@ def test_a_key_shows_the_level_that_has_its_control_and_a_visitor_who_returns_fi
         assert first.run("explorer.state.level") == level, key
     first.key("Escape")
     again = Page(first.driver, striped.address())
-    assert wait_for(lambda: again.run("[window.explorer?.state.level, window.explorer?.state.map]") == ["measure", "on"])
+    assert wait_for(lambda: again.run("[window.explorer?.state.level, window.explorer?.state.map]")
+                    == ["measure", "on"])
     again.run("document.querySelector('#levels [value=look]').click()")
     assert again.run("[explorer.state.map, explorer.state.view, $('map').hidden]") == ["off", "pendulum", True]
     again.driver.get_log("browser")  # the double draws no atlas

@@ -1,4 +1,5 @@
-"""kapitza.explore: the explorer in a cell of a notebook, reached directly, under another port, and through a proxy with a prefix."""
+"""kapitza.explore: the explorer in a cell of a notebook, reached directly, under another port, and through a proxy with
+a prefix."""
 
 import json
 import re
@@ -57,7 +58,8 @@ def proxy(port, prefix):
 
         def pass_on(self):
             body = self.rfile.read(int(self.headers.get("Content-Length", 0)))
-            headers = {name: value for name, value in self.headers.items() if name not in ("Host", "Connection", "Accept-Encoding")}
+            headers = {name: value for name, value in self.headers.items()
+                       if name not in ("Host", "Connection", "Accept-Encoding")}
             headers["Host"] = self.headers["Host"]
             assert self.path.startswith(prefix)
             own = f"http://127.0.0.1:{port}/{self.path.removeprefix(prefix)}"
@@ -102,7 +104,8 @@ def test_a_hub_must_be_named_and_is_then_let_in(monkeypatch):
         assert address.startswith(f"{HUB}proxy/{cell.port}/?once=")
         once = json.dumps({"once": address.partition("once=")[2]}).encode()
         for origin, status in (("https://evil.example.org", 403), ("https://hub.example.org", 200)):
-            asked = urllib.request.Request(f"http://127.0.0.1:{cell.port}/token", once, {"Origin": origin, "Host": "hub.example.org"})
+            asked = urllib.request.Request(f"http://127.0.0.1:{cell.port}/token", once,
+                                           {"Origin": origin, "Host": "hub.example.org"})
             assert answer_of(asked)[0] == status
     finally:
         cell.close()

@@ -1,5 +1,5 @@
-"""The explorer's page in a real browser: numbers of its modules, hands and keys, what is drawn, what it saves. Most of it stands on the
-double of the program (tests/tools/fake_serve.py), whose basins are stripes along theta."""
+"""The explorer's page in a real browser: numbers of its modules, hands and keys, what is drawn, what it saves. Most of
+it stands on the double of the program (tests/tools/fake_serve.py), whose basins are stripes along theta."""
 
 import json
 import re
@@ -30,7 +30,8 @@ def test_windows_are_counted_in_all_their_digits(modules):
     assert text == "-0.001249" + "9" * 34
     deep = """(() => { let w = its.Window.from({theta: {min: -3, max: 3}, velocity: {min: -2, max: 2}});
         for (let i = 0; i < 90; i++) w = w.zoomed(0.1, 0.31, 0.77);
-        return [w.theta.width, w.theta.centre.toString(), w.moved(0.25, 0).moved(-0.25, 0).theta.low.minus(w.theta.low).toString(),
+        return [w.theta.width, w.theta.centre.toString(), w.moved(0.25, 0).moved(-0.25,
+          0).theta.low.minus(w.theta.low).toString(),
                 w.placeOf(w.moved(0.5, 0)).left, JSON.stringify(w.toRequest())]; })()"""
     width, centre, back, left, request = modules.module("window.js", deep)
     assert width == pytest.approx(6e-90) and back == "0" and left == pytest.approx(0.5)
@@ -47,14 +48,16 @@ def test_windows_have_bounds_and_wrap(modules):
         return [out.theta.width, out.velocity.width, far.theta.centre.toNumber(), deep.theta.width, edges]; })()"""
     width, fast, centre, deep, edges = modules.module("window.js", script)
     assert edges == [{"min": 2800, "max": 8800}, {"min": 4000, "max": 10000}, {"min": -10000, "max": 10000}]
-    assert width == pytest.approx(TURN) and fast == pytest.approx(200) and centre == pytest.approx(0.25 * TURN) and 1e-100 <= deep < 1e-97
+    assert width == pytest.approx(TURN) and fast == pytest.approx(200) and centre == pytest.approx(0.25 * TURN)
+    assert 1e-100 <= deep < 1e-97
 
 
 @pytest.mark.parametrize("width", ["3", "0.02", "1e-5", "3e-13", "7e-40", "2e-99"])
 def test_ticks_differ_and_lie_where_they_say(modules, width):
     """1e-5, 1e-5 stood twice on an axis."""
     axis = json.dumps({"centre": "-1.2345678901234567890123", "width": width})
-    found = modules.driver.execute_async_script(f"""const done = arguments[0]; Promise.all([import('/ticks.js'), import('/window.js')])
+    found = modules.driver.execute_async_script(f"""const done = arguments[0]; Promise.all([import('/ticks.js'),
+        import('/window.js')])
         .then(([ticks, window]) => done(ticks.ticksOf(window.Range.from({axis}), 8)))""")
     words = [tick["words"] for tick in found["ticks"]]
     assert 3 <= len(words) == len(set(words)) and not any(re.search("e", word) for word in words)
@@ -90,7 +93,8 @@ def test_two_fingers_zoom_about_the_place_between_them(page):
                                      "return [box.left, box.top, box.width, box.height]; })()")
     before = page.window()["theta"]
     for kind, apart in (("touchStart", 40), ("touchMove", 50), ("touchMove", 80), ("touchEnd", None)):
-        points = [{"x": left + wide / 2 + side * apart, "y": top + high / 2, "id": max(side, 0)} for side in (-1, 1)] if apart else []
+        points = [{"x": left + wide / 2 + side * apart, "y": top + high / 2, "id": max(side, 0)}
+                  for side in (-1, 1)] if apart else []
         page.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
     after = page.window()["theta"]
     assert after["max"] - after["min"] == pytest.approx((before["max"] - before["min"]) / 2, rel=1e-6)
@@ -100,9 +104,11 @@ def test_axes_in_degrees_and_si(page):
     """Of a pivot at 50 Hz: a velocity of 0.01 rad per drive radian is pi rad/s."""
     page.choose("units", "degrees")
     assert wait_for(lambda: "units=degrees" in page.run("location.hash"))
-    words = page.module("plane.js", "[its.axesOf('degrees', null).theta.words, its.axesOf('si', 100 * Math.PI).velocity.words]")
+    words = page.module("plane.js",
+                        "[its.axesOf('degrees', null).theta.words, its.axesOf('si', 100 * Math.PI).velocity.words]")
     assert "degrees" in words[0] and "rad/s" in words[1]
-    assert page.module("plane.js", "0.01 * its.axesOf('si', 100 * Math.PI).velocity.factor(1).toNumber()") == pytest.approx(np.pi)
+    assert page.module("plane.js",
+                       "0.01 * its.axesOf('si', 100 * Math.PI).velocity.factor(1).toNumber()") == pytest.approx(np.pi)
 
 
 def test_starts_are_told_in_the_units_of_the_axes(page):
@@ -116,9 +122,11 @@ def test_starts_are_told_in_the_units_of_the_axes(page):
     words = page.run("$('ending').textContent")
     assert "certain after 0.24 s, within 1° after 0.6 s" in words and re.search(r"velocity \S+ rad/s", words)
     page.run("explorer.basins.point(explorer.basins.panes[0], [0.25, 0.75])")
-    assert wait_for(lambda: "rad/s" in page.run("$('pointer').textContent")) and "after" not in page.run("$('pointer').textContent")
+    assert wait_for(lambda: "rad/s" in page.run("$('pointer').textContent"))
+    assert "after" not in page.run("$('pointer').textContent")
     page.run("explorer.state.change({units: 'degrees'})")
-    assert wait_for(lambda: page.run("$('pointer').textContent").startswith("θ −90")) and "°" in page.run("$('ending').textContent")
+    assert wait_for(lambda: page.run("$('pointer').textContent").startswith("θ −90"))
+    assert "°" in page.run("$('ending').textContent")
 
 
 def test_dragging_wraps_the_angle_and_moves_the_picture_at_once(page, webgl):
@@ -127,7 +135,8 @@ def test_dragging_wraps_the_angle_and_moves_the_picture_at_once(page, webgl):
     for _ in range(3):
         page.hand(0.9, 0.5, 0.4, 0.5)
     window = page.window()["theta"]
-    assert window["min"] == pytest.approx(-np.pi + 1.5 * TURN - TURN, abs=0.05) and window["max"] - window["min"] == pytest.approx(TURN)
+    assert window["min"] == pytest.approx(-np.pi + 1.5 * TURN - TURN,
+                                          abs=0.05) and window["max"] - window["min"] == pytest.approx(TURN)
     after = np.array(page.pixels())
     assert np.all(after[:, 3] == 255) and np.any(before != after)  # the picture goes round: nothing is empty
 
@@ -137,7 +146,8 @@ def test_keys_do_what_hands_do(page):
         page.key(key)
     window = page.window()["theta"]
     width = TURN / 1.6**2
-    assert window["max"] - window["min"] == pytest.approx(width) and window["min"] + window["max"] == pytest.approx(width / 4)
+    assert window["max"] - window["min"] == pytest.approx(width)
+    assert window["min"] + window["max"] == pytest.approx(width / 4)
     page.key("Enter")
     assert wait_for(lambda: page.run("$('ending').dataset.ending"))
     page.key(" ")
@@ -166,7 +176,8 @@ def test_dive_goes_to_a_boundary_between_two_starts(page):
     width = page.run("explorer.state.window.theta.width")
     assert len(page.shares()) > 1 and width < 1e-3 and page.run("$('dive').getAttribute('aria-pressed')") == "false"
     _ = page.press("dive"), page.key("Escape")
-    assert page.run("[$('dive').getAttribute('aria-pressed'), $('status').textContent.includes('Dive')]") == ["false", False]
+    assert page.run("[$('dive').getAttribute('aria-pressed'), $('status').textContent.includes('Dive')]") == ["false",
+                                                                                                              False]
 
 
 def test_escape_ends_a_film(page):
@@ -175,7 +186,8 @@ def test_escape_ends_a_film(page):
     before = page.run("explorer.state.pendulum.m")
     assert wait_for(lambda: page.run("explorer.state.pendulum.m") != before)
     page.key("Escape")
-    assert wait_for(lambda: page.run("$('film-play').textContent") == "Play") and page.run("explorer.state.pendulum.m") == "0.3"
+    assert wait_for(lambda: page.run("$('film-play').textContent")
+                    == "Play") and page.run("explorer.state.pendulum.m") == "0.3"
     page.wait()
 
 
@@ -185,7 +197,8 @@ def test_escape_ends_a_film(page):
 def test_the_pendulum_moves_from_the_first_second_and_shows_its_motion_in_other_ways(page):
     """Unless the reader's system asks for pictures that stand still, as the browser of these tests does."""
     assert wait_for(lambda: page.run("explorer.basins.motion?.at === 0 && !explorer.state.playing"))
-    page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-reduced-motion", "value": "no-preference"}]})
+    page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
+                                {"features": [{"name": "prefers-reduced-motion", "value": "no-preference"}]})
     page.driver.refresh()
     assert wait_for(lambda: page.run("window.explorer?.basins.motion?.at > 2"))  # nothing was clicked
     page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
@@ -193,10 +206,13 @@ def test_the_pendulum_moves_from_the_first_second_and_shows_its_motion_in_other_
         ({x: 400 * at, wide: 7 * words.length, words, rank}))).sort((a, b) => a.x - b.x)""")
     words = [tick["words"] for tick in ticks]
     assert {"0", "1", "2", "3", "1/2", "1/6"} <= set(words)
-    assert all(two["x"] - one["x"] >= (one["wide"] + two["wide"]) / 2 for one, two in zip(ticks, ticks[1:], strict=False))
+    assert all(two["x"] - one["x"] >= (one["wide"] + two["wide"]) / 2 for one,
+               two in zip(ticks, ticks[1:], strict=False))
     line = page.module("motion.js", """(() => { const n = 48, answer = (periods, rest) => {
-            const samples = periods * n + 1, numbers = new Float64Array(2 * samples); // half of the drive's frequency, and a rest
-            for (let i = 0; i < samples; i++) numbers[samples + i] = 0.3 * Math.cos((Math.PI * i) / n) + rest * Math.exp(-i / (20 * n));
+            const samples = periods * n + 1, numbers = new Float64Array(2 * samples);
+              // half of the drive's frequency, and a rest
+            for (let i = 0; i < samples; i++)
+              numbers[samples + i] = 0.3 * Math.cos((Math.PI * i) / n) + rest * Math.exp(-i / (20 * n));
             return [{ samples, samples_per_period: n, pivot: [] }, new Uint8Array(numbers.buffer)]; };
         const motion = new its.Motion(...answer(40, 1), { period: 2, settling_time: 4, near_time: 6 }, answer(2, 0));
         return motion.spectrum(3).filter(([, amplitude]) => amplitude > 1e-9); })()""")
@@ -230,8 +246,10 @@ def test_a_refusal_keeps_the_last_picture_blurred_and_the_view_lives_on(page, we
     before = page.pixels()
     assert np.any(np.array(before)[:, 3]) and not page.run(BLURRED)
     page.choose("value-m", "8")
-    assert page.wait(state="error") == "pendulum.m: must not be 8" == page.run("document.querySelector('.refusal').textContent")
-    assert page.pixels() == before and page.run(BLURRED) and page.shares() == []  # which is not said of what is not computed
+    assert (page.wait(state="error") == "pendulum.m: must not be 8"
+            == page.run("document.querySelector('.refusal').textContent"))
+    # Which is not said of what is not computed
+    assert page.pixels() == before and page.run(BLURRED) and page.shares() == []
     page.choose("value-m", "9")
     assert page.wait(state="error") == "out of memory"
     _ = page.choose("value-m", "0.3"), page.wait()
@@ -241,7 +259,8 @@ def test_a_refusal_keeps_the_last_picture_blurred_and_the_view_lives_on(page, we
 def test_a_change_of_the_pendulum_takes_its_motion_away(page):
     page.hand(0.7, 0.5, 0.7, 0.5)
     assert wait_for(lambda: page.run("$('ending').dataset.ending"))
-    words, is_gone = page.run("($('slider-m').value = 0.2, $('slider-m').oninput(), [$('ending').textContent, !explorer.basins.motion])")
+    words, is_gone = page.run(
+        "($('slider-m').value = 0.2, $('slider-m').oninput(), [$('ending').textContent, !explorer.basins.motion])")
     assert words == "…" and is_gone
     page.wait()
     assert wait_for(lambda: page.run("$('ending').dataset.ending"))  # followed anew, with the new pendulum
@@ -259,18 +278,22 @@ def test_a_slow_frame_can_be_cancelled(page):
 
 def test_sliders_stand_above_the_fold_and_nothing_jumps(page):
     with page.screen(1280, 690):
-        bottoms = page.run("[...document.querySelectorAll('#sliders > *')].map((row) => row.getBoundingClientRect().bottom)")
+        bottoms = page.run(
+            "[...document.querySelectorAll('#sliders > *')].map((row) => row.getBoundingClientRect().bottom)")
         assert len(bottoms) == 4 and max(bottoms) < 690 >= page.run("document.documentElement.scrollHeight")
-    places = "JSON.stringify(['legend', 'ending', 'pendulum', 'slider-m'].map((id) => $(id).getBoundingClientRect().top))"
+    places = ("JSON.stringify(['legend', 'ending', 'pendulum', 'slider-m'].map((id) => "
+              "$(id).getBoundingClientRect().top))")
     names = "JSON.stringify([...$('legend').rows].map((row) => row.dataset.name))"
     before = page.run(places), page.run(names)
     for place in (0.1, 0.35, -0.4):
         _ = page.slide("m", place), page.wait()
         assert (page.run(places), page.run(names)) == before
     assert page.fits(840, 520) and page.fits(390, 800)
-    for tilt, form, sent in (("0.2", "square", {"tilt": 0.2, "waveform": "square"}), ("0", "sine", {})):  # what says nothing is not sent
+    # What says nothing is not sent
+    for tilt, form, sent in (("0.2", "square", {"tilt": 0.2, "waveform": "square"}), ("0", "sine", {})):
         _ = page.choose("value-tilt", tilt), page.choose("value-waveform", form)
-        assert {"k": 0.1, "damping": 0.05} | sent == page.module("frames.js", "(({m, ...p}) => p)(its.asScene(explorer.state.pendulum))")
+        assert ({"k": 0.1, "damping": 0.05}
+                | sent == page.module("frames.js", "(({m, ...p}) => p)(its.asScene(explorer.state.pendulum))"))
 
 
 @pytest.mark.extensive
@@ -279,13 +302,15 @@ def test_two_values_stand_side_by_side_with_linked_cursors(page, webgl):
     page.slide("m", 0.5)
     page.wait()
     assert page.run("explorer.basins.panes.map((pane) => pane.pendulum.m)") == ["0.3", "0.6"]
-    assert page.run("[...document.querySelectorAll('.caption')].map((words) => words.textContent)") == ["A  m 0.3", "B  m 0.6"]
+    assert page.run("[...document.querySelectorAll('.caption')].map((words) => words.textContent)") == ["A  m 0.3",
+                                                                                                        "B  m 0.6"]
     page.run("explorer.basins.point(explorer.basins.panes[0], [0.25, 0.75])")
     assert page.run("explorer.basins.panes.map((pane) => pane.plain.cursor)") == [None, [0.25, 0.75]]
     assert "|" in page.run("$('pointer').textContent") and len(page.run("[...$('legend').rows[0].cells]")) == 4
     page.press("compare")
     page.wait()
-    assert page.run("document.querySelectorAll('.pane').length") == 1 and "|" not in page.run("$('pointer').textContent")
+    assert page.run("document.querySelectorAll('.pane').length") == 1
+    assert "|" not in page.run("$('pointer').textContent")
 
 
 @pytest.mark.extensive
@@ -300,7 +325,8 @@ def test_both_painters_draw_the_same(page, webgl, driver, striped):
     plain.wait()
     second = np.array(plain.pixels())
     assert plain.run("explorer.basins.panes[0].painter.kind") == "2d" and len(np.unique(second, axis=0)) > 2
-    assert np.mean(np.max(np.abs(first - second), axis=1) > 12) < 0.35  # doubtful cells are striped otherwise, and shares of pixels
+    # Doubtful cells are striped otherwise, and shares of pixels
+    assert np.mean(np.max(np.abs(first - second), axis=1) > 12) < 0.35
 
 
 def test_samples_soften_what_is_finer_than_a_pixel(page, webgl):
@@ -324,7 +350,8 @@ def test_pictures_and_tables_are_saved(page, webgl, folder):
     window = page.window()
     picture = matplotlib.image.imread(page.saved("save-png", folder / "view.png"))
     assert picture.shape[1] > 1500 and picture[..., :3].std() > 0.05
-    scene = yaml.safe_load(scene_in(folder / "view.png"))  # a picture opens the view that it shows, by the program and by the page
+    # A picture opens the view that it shows, by the program and by the page
+    scene = yaml.safe_load(scene_in(folder / "view.png"))
     assert scene["pendulum"]["m"] == 0.3 and scene["basin"]["theta"]["min"] == pytest.approx(window["theta"]["min"])
     _ = page.press("home"), page.slide("m", 0.2)
     page.driver.find_element("css selector", "#open").send_keys(str(folder / "view.png"))
@@ -332,7 +359,8 @@ def test_pictures_and_tables_are_saved(page, webgl, folder):
     page.choose("save-width", "900")
     assert matplotlib.image.imread(page.saved("save-png", folder / "view.png")).shape[1] == 900
     alone = page.saved("save-html", folder / "view.html").read_text()
-    assert alone.count("<button") == 0 and "data:image/png" in alone and "import " not in alone.split("<script>")[1].split("modules[")[0]
+    assert alone.count("<button") == 0 and "data:image/png" in alone
+    assert "import " not in alone.split("<script>")[1].split("modules[")[0]
     page.plays_alone(folder / "view.html")
     drawing = ElementTree.parse(page.saved("save-svg", folder / "view.svg")).getroot()
     words = [item.text for item in drawing.iter("{http://www.w3.org/2000/svg}text")]
@@ -345,5 +373,6 @@ def test_films_are_saved(page, webgl, folder):
     with zipfile.ZipFile(page.saved("film-png", folder / "film.zip")) as film:
         assert film.testzip() is None and film.namelist() == [f"film-00{n}.png" for n in range(4)]  # there and back
     for kind in ("webm", "mp4"):
-        assert page.saved(f"film-{kind}", folder / f"film.{kind}").stat().st_size > 2000  # a head without pictures has 110 bytes
+        # A head without pictures has 110 bytes
+        assert page.saved(f"film-{kind}", folder / f"film.{kind}").stat().st_size > 2000
         assert wait_for(lambda: page.run("$('film-state').textContent") == "")

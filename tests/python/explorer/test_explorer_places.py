@@ -1,5 +1,5 @@
-"""Where the explorer's page says that a window lies, how it finds boundaries, its sliders, stories and tables, in a real browser over
-the double of the program."""
+"""Where the explorer's page says that a window lies, how it finds boundaries, its sliders, stories and tables, in a
+real browser over the double of the program."""
 
 import re
 
@@ -31,14 +31,17 @@ def test_upright_is_in_the_middle_until_another_choice_which_is_remembered(drive
 def test_a_plain_deep_picture_says_where_it_is_and_goes_to_a_boundary(page):
     page.run("explorer.state.change({window: explorer.state.window.zoomed(1e-7, 0.513, 0.4), jump: true})")
     page.wait()
-    assert wait_for(lambda: not page.run("document.querySelector('.inset').hidden || document.querySelector('.offer').hidden"))
+    assert wait_for(
+        lambda: not page.run("document.querySelector('.inset').hidden || document.querySelector('.offer').hidden"))
     width = page.run("explorer.state.window.theta.width")
     page.run("document.querySelector('.offer').click()")
     assert wait_for(lambda: len(page.shares()) > 1)
     page.wait()
-    assert page.run("document.querySelector('.offer').hidden") and page.run("explorer.state.window.theta.width") == pytest.approx(width)
+    assert page.run("document.querySelector('.offer').hidden")
+    assert page.run("explorer.state.window.theta.width") == pytest.approx(width)
     page.run("document.querySelector('.inset').click()")
-    assert page.window()["theta"]["min"] == pytest.approx(-np.pi) and wait_for(lambda: page.run("document.querySelector('.inset').hidden"))
+    assert page.window()["theta"]["min"] == pytest.approx(-np.pi)
+    assert wait_for(lambda: page.run("document.querySelector('.inset').hidden"))
 
 
 def test_the_relief_rises_inside_a_basin(page, webgl):
@@ -47,8 +50,10 @@ def test_the_relief_rises_inside_a_basin(page, webgl):
     columns, raised, shades = page.run("""(({columns, rows, cells, raised}) => [columns, raised,
         new Set(Array.from({length: columns / 8}, (_, i) => cells[4 * i + 1])).size])(explorer.basins.panes[0].top)""")
     assert raised and shades > columns / 80
-    upper_left, lower_right = page.module("heights.js", """(() => { const n = 40, at = (row, column) => row * n + column;
-        const smooth = Float32Array.from({length: n * n}, (_, i) => Math.hypot(i % n - 20, Math.floor(i / n) - 20));  // a hill
+    upper_left, lower_right = page.module("heights.js", """(() => { const n = 40, at = (row,
+        column) => row * n + column;
+        const smooth = Float32Array.from({length: n * n}, (_, i) => Math.hypot(i % n - 20, Math.floor(i / n) - 20));
+          // a hill
         const cells = new Uint8Array(4 * n * n).map((_, i) => i % 4 === 1 ? 25.5 * Math.log2(1 + smooth[i >> 2]) : 0);
         const frame = {rows: n, columns: n, labels: new Uint8Array(n * n), cells, smooth}; its.raise(frame, frame);
         return [at(26, 14), at(14, 26)].map((cell) => cells[4 * cell + 1]); })()""")
@@ -80,7 +85,8 @@ def test_cells_without_a_label_are_hatched_until_they_are_settled(modules):
 
 
 def test_the_pointer_reads_the_measures_of_the_basin_under_it(page):
-    """Share, return time and, of exact labels, the mean settling time at once; the smallest push once the pointer rests."""
+    """Share, return time and, of exact labels, the mean settling time at once; the smallest push once the pointer
+    rests."""
     page.choose("quality", "exact")
     page.wait()
     page.run("explorer.basins.point(explorer.basins.panes[0], [0.25, 0.75])")
@@ -102,9 +108,12 @@ def test_the_list_lights_a_basin_and_keeps_the_one_that_is_clicked(page, webgl):
     lit = np.unique(np.array(page.pixels()), axis=0).tolist()
     assert sum(colour in plain for colour in lit) == 1 and len(lit) == len(plain) > 1  # one keeps its colour
     assert wait_for(lambda: page.run("$('passport').textContent").startswith("inverted: "))
-    assert wait_for(lambda: "smallest push: beyond this window" in page.run("$('passport').textContent"))  # stripes along theta
-    assert re.search(r"largest multiplier 0\.\d+, return time [\d.]+ drive periods; strobe", page.run("$('passport').textContent"))
-    assert "closes after 1 drive period;" in page.run("$('passport').textContent") and page.run("explorer.state.start.theta") == "0.135"
+    # Stripes along theta
+    assert wait_for(lambda: "smallest push: beyond this window" in page.run("$('passport').textContent"))
+    assert re.search(r"largest multiplier 0\.\d+, return time [\d.]+ drive periods; strobe",
+                     page.run("$('passport').textContent"))
+    assert "closes after 1 drive period;" in page.run("$('passport').textContent")
+    assert page.run("explorer.state.start.theta") == "0.135"
     page.run("document.querySelector('#legend tr:nth-child(2) button').click()")
     assert page.run("explorer.state.lit") is None and np.unique(np.array(page.pixels()), axis=0).tolist() == plain
     assert wait_for(lambda: page.run("$('passport').hidden"))
@@ -134,7 +143,8 @@ def test_a_zoom_into_one_colour_goes_on_to_the_nearest_boundary(page):
     page.key("w")
     assert not page.run("$('drawn').checked")
     window, labels = zoomed(0.04)
-    assert labels == 1 and window["min"] < start < window["max"] and not page.run("document.querySelector('.offer').hidden")
+    assert labels == 1 and window["min"] < start < window["max"]
+    assert not page.run("document.querySelector('.offer').hidden")
     page.key("w")
     zoomed(1e-4)  # fewer cells of the picture than are known: the boundary is found by the program
     assert wait_for(lambda: len(page.shares()) > 1)
@@ -144,24 +154,29 @@ def test_a_zoom_into_one_colour_goes_on_to_the_nearest_boundary(page):
 
 
 def test_basins_move_while_the_point_does_on_a_slow_machine(page):
-    """A level takes 0.6 s, and the point moves every 30 ms: frames that were given up as soon as another was wanted never came."""
-    assert page.driver.execute_async_script("""const done = arguments[0], pane = explorer.basins.panes[0], before = pane.latest; let n = 0;
+    """A level takes 0.6 s, and the point moves every 30 ms: frames that were given up as soon as another was wanted
+    never came."""
+    assert page.driver.execute_async_script("""const done = arguments[0], pane = explorer.basins.panes[0],
+        before = pane.latest; let n = 0;
         const hand = setInterval(() => { const pendulum = {...explorer.state.pendulum, m: String(5.6 + 1e-4 * n++)};
             const came = pane.latest !== before && pane.latest.key.includes('"5.6');
             if (came || n > 400) { clearInterval(hand); done(came); }
             explorer.state.change({pendulum}); }, 30)""")
     page.run("explorer.state.change({pendulum: explorer.state.scene})")
     page.wait()
-    assert page.run("((pane) => (pane.most = 1e5, pane.measure(300), pane.measure(15), pane.most))(explorer.basins.panes[0])") == 72000
+    assert page.run("((pane) => (pane.most = 1e5, pane.measure(300), pane.measure(15), "
+                    "pane.most))(explorer.basins.panes[0])") == 72000
 
 
 def test_sliders_know_their_unit_and_say_what_is_no_number(page):
     words = "[its.typed('9', '8 mm'), its.typed('1e1 cm', '8 mm'), its.typed('.5', '0.3'), its.typed('x', '0.3')]"
     assert page.module("sliders.js", words) == ["9 mm", "10 cm", "0.5", None]
     page.choose("value-m", "much")
-    assert page.run("[$('message-m').textContent, explorer.state.pendulum.m]") == ["much is not a number; write for example 0.3", "0.3"]
+    assert (page.run("[$('message-m').textContent, explorer.state.pendulum.m]")
+            == ["much is not a number; write for example 0.3", "0.3"])
     page.run("$('slider-m').dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowRight', cancelable: true}))")
-    assert page.run("[$('slider-m').getAttribute('aria-valuetext'), $('message-m').textContent]") == [str(round(0.3 * 4**0.01, 6)), ""]
+    assert page.run("[$('slider-m').getAttribute('aria-valuetext'), $('message-m').textContent]") == [
+        str(round(0.3 * 4**0.01, 6)), ""]
     page.run("$('slider-m').dispatchEvent(new MouseEvent('dblclick'))")
     assert page.run("explorer.state.pendulum.m") == "0.3"
 
@@ -171,16 +186,22 @@ def test_the_track_of_a_slider_says_what_a_start_does_along_it(page):
     script = """const done = arguments[0]; import("/track.js").then(async (its) => { const engine = explorer.map.engine;
         const {scene} = explorer.state, stretches = await its.stretchesOf(engine, "m", scene, scene.m);
         const range = document.createElement("input"), marks = document.createElement("div");
-        marks.className = "marks"; marks.style.cssText = "position: fixed; width: 300px; margin: 0"; document.body.append(marks);
-        its.drawTrack({range, marks}, [["falls", 0, 0, 0.2], ["stands", 0.1294, 0.2, 0.66], ["flutters", 0.468, 0.66, 0.7],
-            ["turns", 0.5, 0.7, 0.71], ["turns", 0.54, 0.71, 1]].map(([words, number, from, to]) => ({words, number, from, to})));
+        marks.className = "marks"; marks.style.cssText = "position: fixed; width: 300px; margin: 0";
+          document.body.append(marks);
+        its.drawTrack({range, marks}, [["falls", 0, 0, 0.2], ["stands", 0.1294, 0.2, 0.66], ["flutters", 0.468, 0.66,
+          0.7],
+            ["turns", 0.5, 0.7, 0.71], ["turns", 0.54, 0.71, 1]].map(([words, number, from, to]) => ({words, number,
+              from, to})));
         const words = [...marks.children].map((mark) => [mark.textContent, mark.offsetLeft]); marks.remove();
-        done([stretches.map(({words, from, to}) => [words, from, to]), words, range.style.getPropertyValue("--track")]); })"""
+        done([stretches.map(({words, from, to}) => [words, from, to]), words,
+          range.style.getPropertyValue("--track")]); })"""
     stretches, words, track = page.driver.execute_async_script(script)
-    assert len(stretches) == 14 and {one[0] for one in stretches} == {"stands", "falls"}  # of 20 cells each, two thirds of which fall
+    # Of 20 cells each, two thirds of which fall
+    assert len(stretches) == 14 and {one[0] for one in stretches} == {"stands", "falls"}
     assert stretches[0][1] == 0 and stretches[-1][2] == 1
     assert all(one[2] == two[1] for one, two in zip(stretches, stretches[1:], strict=False))
-    assert [text for text, _ in words] == ["falls", "stands 0.13", "flutters"] and words[1][1] == 60 and words[2][1] == 198
+    assert [text for text, _ in words] == ["falls", "stands 0.13",
+                                           "flutters"] and words[1][1] == 60 and words[2][1] == 198
     assert track.startswith("linear-gradient(to right, var(--down) 0% 20%") and "var(--flutter) 66% 70%" in track
 
 
@@ -214,9 +235,11 @@ def test_the_pointer_is_read_on_both_axes(page):
 def test_a_phone_reaches_every_control(page):
     """Film and ? lay beyond the edge of the bar."""
     script = """[...document.querySelectorAll("button, select, input:not([type=file], [type=checkbox]), summary")]
-        .filter((part) => part.offsetParent && part.checkVisibility({visibilityProperty: true}) && !part.closest(".menu > div"))
+        .filter((part) => part.offsetParent && part.checkVisibility({visibilityProperty: true})
+          && !part.closest(".menu > div"))
         .map((part) => [part.id || part.textContent, part.getBoundingClientRect()])
-        .filter(([, box]) => Math.min(box.width, box.height) < 44 || box.left < 0 || box.right > innerWidth).map(([name]) => name)"""
+        .filter(([, box]) => Math.min(box.width,
+          box.height) < 44 || box.left < 0 || box.right > innerWidth).map(([name]) => name)"""
     for width in (390, 360):
         with page.screen(width, 800, mobile=True):
             if width == 390:
@@ -253,7 +276,8 @@ def test_releases_of_a_table_are_compared(page):
         $('panes').dispatchEvent(new DragEvent("drop", {{dataTransfer: data, cancelable: true}})); }})()""")
     assert wait_for(lambda: page.run("$('agreement').textContent").count("agree") == 3)
     assert page.run("$('agreement').textContent").split("\n")[0].startswith("hanging: ")
-    wrong = page.module("table.js", "(() => { try { its.releasesOf('a,b', null) } catch (error) { return error.message } })()")
+    wrong = page.module("table.js",
+                        "(() => { try { its.releasesOf('a,b', null) } catch (error) { return error.message } })()")
     assert wrong.startswith("a table of releases needs a head")
     page.choose("spread", "10")
     page.run("explorer.basins.point(explorer.basins.panes[0], [0.5, 0.5])")
@@ -272,4 +296,5 @@ def test_turns_shade_the_labels(page, webgl):
     page.choose("shade", "turns")
     page.wait()
     assert len(np.unique(np.array(page.pixels()), axis=0)) > plain
-    assert page.module("heights.js", "[-5, -4, 0, 1, 2, 3, NaN].map(its.shadeOfTurns)") == pytest.approx([1, 0, 0, 1 / 3, 2 / 3, 1, 0])
+    assert (page.module("heights.js", "[-5, -4, 0, 1, 2, 3, NaN].map(its.shadeOfTurns)")
+            == pytest.approx([1, 0, 0, 1 / 3, 2 / 3, 1, 0]))

@@ -46,7 +46,9 @@ def check_saved_scene(page, kapitza, tmp_path):
     scene = yaml.safe_load(page.saved("save-scene", path).read_text())
     kapitza("run", path, "-o", tmp_path / "view.h5", "--force")
     table = Result(tmp_path / "view.h5").group("attractors")
-    run = sorted((str(name), float(share)) for name, share in zip(table["name"].values, table["fraction"].values, strict=True) if share)
+    run = sorted((str(name), float(share)) for name, share in zip(table["name"].values, table["fraction"].values,
+                                                                  strict=True) if share)
     shown = page.shares()
     assert scene["basin"]["method"] == "exact" and [name for name, _ in shown] == [name for name, _ in run]
-    assert [share for _, share in shown] == pytest.approx([share for _, share in run], abs=1e-4)  # undecided cells may differ
+    # Undecided cells may differ
+    assert [share for _, share in shown] == pytest.approx([share for _, share in run], abs=1e-4)

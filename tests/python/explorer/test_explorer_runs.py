@@ -19,7 +19,8 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 PENDULUM = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
-PLANE = {"x": {"parameter": "drive_frequency", "min": 8, "max": 14}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.6}}
+PLANE = {"x": {"parameter": "drive_frequency", "min": 8, "max": 14},
+         "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.6}}
 
 
 @pytest.fixture
@@ -36,8 +37,10 @@ def test_a_map_is_computed_once_and_has_the_limits_of_rest(kept, monkeypatch):
     header, payload = again[0]
     assert len(payload) == header["bytes"] == 17 * header["points"] + 2 * header["cells"] ** 2
     x, y = np.frombuffer(payload, "<f4", 2 * header["points"]).reshape(2, -1)
-    limits = {curve["kind"]: np.interp(0.5, *sorted_by_x(x, y, curve)) * 0.6 for curve in header["curves"] if curve["name"] == "inverted"}
-    assert limits["rest_leans"] == pytest.approx(0.129, abs=1e-3) and limits["rest_swings"] == pytest.approx(0.468, abs=1e-3)
+    limits = {curve["kind"]: np.interp(0.5, *sorted_by_x(x, y, curve)) * 0.6 for curve in header["curves"]
+              if curve["name"] == "inverted"}
+    assert limits["rest_leans"] == pytest.approx(0.129,
+                                                 abs=1e-3) and limits["rest_swings"] == pytest.approx(0.468, abs=1e-3)
 
 
 def sorted_by_x(x, y, curve):
@@ -57,14 +60,16 @@ def test_a_damaged_result_is_computed_again_and_what_killed_explorers_left_goes(
         os.utime(tmp_path / name, (time.time() - age,) * 2)
     for damaged in (b"", whole[:len(whole) // 2], whole[:3000] + bytes(3000) + whole[6000:]):
         path.write_bytes(damaged)
-        assert list(atlas.maps(kept, {"pendulum": PENDULUM, **PLANE}))[-1] == first and len(path.read_bytes()) == len(whole)
+        assert list(atlas.maps(kept, {"pendulum": PENDULUM, **PLANE}))[-1] == first
+        assert len(path.read_bytes()) == len(whole)
     assert sorted(entry.name for entry in tmp_path.iterdir()) == sorted([path.name, "tmpnew"])
 
 
 def test_what_cannot_be_computed_is_refused_in_the_programs_words(kept):
     with pytest.raises(Refused, match="damping"):
         list(atlas.maps(kept, {"pendulum": {"k": 0.1, "damping": 0, "m": 0.3},
-                               "x": {"parameter": "k", "min": 0, "max": 1}, "y": {"parameter": "m", "min": 0, "max": 1}}))
+                               "x": {"parameter": "k", "min": 0, "max": 1},
+                               "y": {"parameter": "m", "min": 0, "max": 1}}))
     with pytest.raises(BadRequest, match="max_period"):
         list(atlas.maps(kept, {"pendulum": PENDULUM, **PLANE, "max_period": 0}))
     with pytest.raises(BadRequest, match="pendulum, x and y"):
@@ -87,10 +92,13 @@ def test_the_stories_that_come_with_the_page_can_be_told():
 
 @pytest.mark.parametrize(("change", "words"), [
     ("title: [", "mine.yaml:2: is not YAML"), ("steps: [{view: trace}]", "mine.yaml: step 1: say: is missing"),
-    ("steps: [{say: a, view: side}]", "step 1: view: side is unknown"), ("steps: [{say: a, start: {theta: 1}}]", "step 1: start"),
-    ("steps: [{say: a, pendulum: {m: 1}}]", r"step 1: pendulum.m: the story's own"), ("steps: [{say: a, map: on}]", "map: True is not"),
+    ("steps: [{say: a, view: side}]", "step 1: view: side is unknown"),
+    ("steps: [{say: a, start: {theta: 1}}]", "step 1: start"),
+    ("steps: [{say: a, pendulum: {m: 1}}]", r"step 1: pendulum.m: the story's own"),
+    ("steps: [{say: a, map: on}]", "map: True is not"),
     ("color: red", "color: unknown key; known are title"), ("steps: all", "steps: all is not"),
-    ("steps: [{say: a, glide: .inf}]", "step 1: glide: inf is not"), ("pendulum: {k: 2020-02-02}", "mine.yaml: pendulum: {'k': datetime"),
+    ("steps: [{say: a, glide: .inf}]", "step 1: glide: inf is not"),
+    ("pendulum: {k: 2020-02-02}", "mine.yaml: pendulum: {'k': datetime"),
     ("window: {theta: {min: }}", "window: {'theta': {'min': None}} is not")])
 def test_a_story_that_is_wrong_is_refused_with_its_place(change, words):
     right = {"title": "a", "pendulum": {"k": 0.1}, "steps": [{"say": "a"}]}
@@ -101,8 +109,8 @@ def test_a_story_that_is_wrong_is_refused_with_its_place(change, words):
 
 @pytest.mark.parametrize(("value", "words"), [
     ("&a [1]", "mine.yaml:2: .* an anchor"), ("*a", "mine.yaml:2: .* an alias"), ("!!float 1", "mine.yaml:2: .* a tag"),
-    ("2020-99-99", "mine.yaml: .* month"), ("9" * 5000, "mine.yaml: .* limit"), (f"0x{'f' * 6000}", "pendulum: a number of thousands"),
-    ("[" * 5000, "mine.yaml: .* too deeply")])
+    ("2020-99-99", "mine.yaml: .* month"), ("9" * 5000, "mine.yaml: .* limit"),
+    (f"0x{'f' * 6000}", "pendulum: a number of thousands"), ("[" * 5000, "mine.yaml: .* too deeply")])
 def test_a_story_is_refused_before_anything_in_it_is_expanded(value, words):
     """Aliases ten wide and six deep made gigabytes of 500 bytes."""
     with pytest.raises(BadRequest, match=words):
@@ -115,7 +123,8 @@ def test_aliases_of_a_scene_are_left_to_the_program_which_refuses_them(tmp_path)
     text = f"{laughs}pendulum: {{k: *a6}}\n"
     (tmp_path / "laughs.yaml").write_text(text)
     assert tree_of(text) == {} and Start(tmp_path / "laughs.yaml").tree == {}
-    assert Start("pendulum: {k: 1}\n", is_text=True, sets=[f"pendulum.m=[{'&a x, ' * 3}]"]).tree == {"pendulum": {"k": "1"}}
+    assert Start("pendulum: {k: 1}\n", is_text=True,
+                 sets=[f"pendulum.m=[{'&a x, ' * 3}]"]).tree == {"pendulum": {"k": "1"}}
     with pytest.raises(ArgumentTypeError, match="cannot be read: an anchor"):
         colours_of(str(tmp_path / "laughs.yaml"))
 

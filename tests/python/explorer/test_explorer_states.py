@@ -1,5 +1,6 @@
-"""Every state of the explorer's page shows what it says, whatever was done before: title, list, sentence and picture agree. Sequences of
-what hands do come from hypothesis, always the same ones; what came of a sequence is read once the page asks for no more."""
+"""Every state of the explorer's page shows what it says, whatever was done before: title, list, sentence and picture
+agree. Sequences of what hands do come from hypothesis, always the same ones; what came of a sequence is read once the
+page asks for no more."""
 
 import json
 
@@ -15,10 +16,12 @@ QUESTION = "Where does the pendulum end?"
 places = st.floats(0.05, 0.95).map(lambda share: round(share, 3))
 ACTIONS = st.one_of(
     st.tuples(st.just("zoom"), st.sampled_from([-900, -300, -100, 400]), places, places),
-    st.tuples(st.just("key"), st.sampled_from(["h", "h", "Escape", "Escape", "Backspace", "n", "-", "ArrowRight", "w", "c", "d"])),
+    st.tuples(st.just("key"),
+              st.sampled_from(["h", "h", "Escape", "Escape", "Backspace", "n", "-", "ArrowRight", "w", "c", "d"])),
     st.tuples(st.just("click"), places, places),
     st.tuples(st.just("story"), st.sampled_from(["show-me", "story-next", "story-next", "story-back", "story-end"])),
-    st.tuples(st.just("jump"), st.sampled_from(["theta=1..1.5&velocity=-0.2..0.2", "theta=-3..3&velocity=-1..1&pendulum.m=0.5"])),
+    st.tuples(st.just("jump"),
+              st.sampled_from(["theta=1..1.5&velocity=-0.2..0.2", "theta=-3..3&velocity=-1..1&pendulum.m=0.5"])),
     st.tuples(st.just("slider"), st.floats(-0.9, 0.9).map(lambda place: round(place, 2))),
     st.tuples(st.just("level"), st.sampled_from(["look", "explore", "measure"])))
 
@@ -31,25 +34,34 @@ SAID = """(() => { const {state, basins, stories} = explorer, pane = basins.pane
     pane.drawNow();
     const context = pane.basins.getContext("2d"), wrong = [], at = (x, y) => pane.cellAt(x, y);
     for (let i = 1; i < 24; i++) for (let j = 1; j < 24; j++) {
-        const [x, y] = [i / 24, j / 24], around = [-3, 3].map((step) => at(x + step / pane.basins.width, y)), found = at(x, y);
-        if (!found || around.some((one) => !one || one.frame.labels[one.cell] !== found.frame.labels[found.cell])) continue;
+        const [x, y] = [i / 24, j / 24], around = [-3, 3].map((step) => at(x + step / pane.basins.width, y)),
+          found = at(x, y);
+        if (!found || around.some((one) => !one
+          || one.frame.labels[one.cell] !== found.frame.labels[found.cell])) continue;
         const label = found.frame.labels[found.cell], {colour} = attractors.find(({id}) => id === label);
         const {width, height} = pane.basins;
         const pixel = context.getImageData(Math.floor(x * width), Math.floor((1 - y) * height), 1, 1).data;
         const drawn = `#${[...pixel].slice(0, 3).map((n) => n.toString(16).padStart(2, "0")).join("")}`;
         if (drawn !== colour) wrong.push([x, y, drawn, colour]); }
-    return {level: state.level, title: $("title").textContent, page: document.title, scene: state.scene, pendulum: state.pendulum,
-        named: state.title, counts, size, kinds: Object.fromEntries(attractors.map(({id, name, kind}) => [id, [name, kind]])),
-        list: [...$("legend").rows].map((row) => [row.dataset.name, Number(row.dataset.share), row.cells[2].textContent]),
+    return {level: state.level, title: $("title").textContent, page: document.title, scene: state.scene,
+      pendulum: state.pendulum,
+        named: state.title, counts, size, kinds: Object.fromEntries(attractors.map(({id, name, kind}) => [id, [name,
+          kind]])),
+        list: [...$("legend").rows].map((row) => [row.dataset.name, Number(row.dataset.share),
+          row.cells[2].textContent]),
         pale: $("legend").classList.contains("stale"), sentence: $("sentence").textContent, wrong,
-        stale: basins.panes.map((one) => one.isStale || one.root.classList.contains("stale")), whole: state.window.equals(state.home),
+        stale: basins.panes.map((one) => one.isStale || one.root.classList.contains("stale")),
+          whole: state.window.equals(state.home),
         window: JSON.stringify(state.window.toRequest()), written: $("where").dataset.window,
         drawn: JSON.stringify(pane.window.toRequest()),
-        values: Object.fromEntries([...document.querySelectorAll(".slider input[type=text]")].map((one) => [one.id.slice(6), one.value])),
-        beside: [...document.querySelectorAll(".slider")].map((row) => row.querySelector("output")?.textContent ?? null),
+        values: Object.fromEntries([...document.querySelectorAll(".slider input[type=text]")]
+          .map((one) => [one.id.slice(6), one.value])),
+        beside: [...document.querySelectorAll(".slider")]
+          .map((row) => row.querySelector("output")?.textContent ?? null),
         story: [document.body.dataset.story ?? null, stories.story?.title ?? null, $("story-place").textContent,
                 stories.story && `${stories.step + 1} / ${stories.story.steps.length}`],
-        radio: document.querySelector("#levels :checked").value, panes: basins.panes.length, isCompared: Boolean(state.other)}; })()"""
+        radio: document.querySelector("#levels :checked").value, panes: basins.panes.length,
+          isCompared: Boolean(state.other)}; })()"""
 
 
 def done(page, action):
@@ -72,7 +84,8 @@ def done(page, action):
 
 
 def percent(share):
-    return "0 %" if share == 0 else f"{100 * share:.1f} %" if share >= 0.01 else f"{100 * share:.2f} %" if share >= 1e-4 else "< 0.01 %"
+    return ("0 %" if share == 0 else f"{100 * share:.1f} %" if share >= 0.01 else f"{100 * share:.2f} %"
+            if share >= 1e-4 else "< 0.01 %")
 
 
 def check(said):
@@ -85,14 +98,16 @@ def check(said):
         shares[name] = shares.get(name, 0) + count / said["size"]
     listed = {name: share for name, share, _ in said["list"] if share}
     assert listed == pytest.approx(shares) and all(words == percent(share) for _, share, words in said["list"])
-    found = [(kind, percent(shares[kind])) for kind in ("inverted", "flutter") if shares.get(kind)]  # names are kinds in the double
+    # Names are kinds in the double
+    found = [(kind, percent(shares[kind])) for kind in ("inverted", "flutter") if shares.get(kind)]
     said_of = {"inverted": ("can stand: {} of all starts.", "{} of the starts shown end inverted."),
                "flutter": ("can flutter: {} of all starts.", "{} of the starts shown end in flutter.")}
     none = ("cannot stand: it falls, or turns.", "None of the starts shown ends inverted.")
     sentence = said_of[found[0][0]][not said["whole"]].format(found[0][1]) if found else none[not said["whole"]]
     assert said["isCompared"] or said["sentence"].removeprefix("Now it ").removeprefix("It ") == sentence
     differing = [name for name in said["pendulum"] if said["pendulum"][name] != said["scene"][name]]
-    title = ", ".join(f"{name.replace('_', ' ')} {said['pendulum'][name]} instead of {said['scene'][name]}" for name in differing[:2])
+    title = ", ".join(f"{name.replace('_', ' ')} {said['pendulum'][name]} instead of {said['scene'][name]}"
+                      for name in differing[:2])
     assert said["page"] == (title + " …" * (len(differing) > 2) or said["named"])
     assert said["title"] == (QUESTION if said["level"] == "look" else said["page"]) and said["radio"] == said["level"]
     assert said["isCompared"] or all(value == said["pendulum"][name] for name, value in said["values"].items())
@@ -101,11 +116,13 @@ def check(said):
 
 
 @given(actions=st.lists(ACTIONS, min_size=1, max_size=8))
-@settings(max_examples=200 if EXTENSIVE else 5, derandomize=True, deadline=None, database=None, report_multiple_bugs=False,
-          suppress_health_check=list(HealthCheck))
+@settings(max_examples=200 if EXTENSIVE else 5, derandomize=True, deadline=None, database=None,
+          report_multiple_bugs=False, suppress_health_check=list(HealthCheck))
 @example(actions=[("zoom", -900, 0.3, 0.5), ("key", "h"), ("key", "Escape")])
-@example(actions=[("story", "show-me"), ("story", "story-next"), ("slider", 0.3), ("story", "story-end"), ("level", "explore")])
-@example(actions=[("level", "measure"), ("key", "d"), ("click", 0.4, 0.5), ("click", 0.61, 0.5), ("zoom", -300, 0.2, 0.2), ("key", "h")])
+@example(actions=[("story", "show-me"), ("story", "story-next"), ("slider", 0.3), ("story", "story-end"),
+                  ("level", "explore")])
+@example(actions=[("level", "measure"), ("key", "d"), ("click", 0.4, 0.5), ("click", 0.61, 0.5),
+                  ("zoom", -300, 0.2, 0.2), ("key", "h")])
 def test_title_list_sentence_and_picture_agree_in_every_state(driver, striped, actions):
     driver.get("about:blank")
     driver.execute_cdp_cmd("Network.clearBrowserCookies", {})

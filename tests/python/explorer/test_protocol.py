@@ -1,4 +1,5 @@
-"""The protocol of the command serve: every line is answered, newer requests end older ones, ends and errors are answers."""
+"""The protocol of the command serve: every line is answered, newer requests end older ones, ends and errors are
+answers."""
 
 import json
 import re
@@ -48,8 +49,10 @@ def test_a_frame_is_cancelled(server):
     ("{" * 200, "is not JSON"),
     ('{"request": "fame' + "\u20ac" * 30 + '"}', "is unknown"),
     ("{}", "request: is missing; it must be one of frame, where"),
-    ('{"request": "where", "theta": 1' + "0" * 40 + ', "velocity": 0}', "is not a finite decimal number; it must be a number"),
-    ('{"request": "orbit", "theta": 1, "velocity": 0, "periods": 100000, "samples_per_period": 4096}', "more than 16777216 samples"),
+    ('{"request": "where", "theta": 1' + "0" * 40 + ', "velocity": 0}',
+     "is not a finite decimal number; it must be a number"),
+    ('{"request": "orbit", "theta": 1, "velocity": 0, "periods": 100000, "samples_per_period": 4096}',
+     "more than 16777216 samples"),
     ('{"request": "fame"}', '"fame" is unknown; it must be one of frame, where'),
     ('{"request": "frame", "columns": 10}', "rows: is missing"),
     ('{"request": "motions", "x": 1, "y": 1}', "atlas: is missing"),
@@ -60,8 +63,10 @@ def test_a_frame_is_cancelled(server):
     ('{"request": "frame", "rows": 8192, "columns": 8192}', "more than 16777216 cells"),
     ('{"request": "frame", "rows": 10, "columns": 10, "levels": [1, 8]}', "falling order"),
     ('{"request": "frame", "rows": 10, "columns": 10, "level": 8}', "level: unknown key"),
-    ('{"request": "frame", "rows": 10, "columns": 10, "pendulum": {"k": 0.1, "m": 0.3}}', "pendulum.damping: is missing"),
-    ('{"request": "frame", "rows": 10, "columns": 10, "window": {"velocity": {"min": 2, "max": 1}}}', "basin.velocity.max"),
+    ('{"request": "frame", "rows": 10, "columns": 10, "pendulum": {"k": 0.1, "m": 0.3}}',
+     "pendulum.damping: is missing"),
+    ('{"request": "frame", "rows": 10, "columns": 10, "window": {"velocity": {"min": 2, "max": 1}}}',
+     "basin.velocity.max"),
     ('{"request": "where", "theta": "x", "velocity": 1}', 'theta: "x" is not'),
     ('{"request": "orbit", "theta": 1}', "orbit.start.velocity: is missing"),
     ('{"request": "quit", "why": 1}', "why: unknown key"),
@@ -94,7 +99,8 @@ def test_an_orbit_is_cancelled_at_once():
     with Server(FIG12) as server:
         for frames in (0, 1):
             frame = [server.post("frame", rows=300, columns=400, view="a", quality="moving") for _ in range(frames)]
-            orbits = [server.post("orbit", theta=1, velocity=speed, view="b", transient=10_000_000) for speed in (0.1, 1e3, 0.2)]
+            orbits = [server.post("orbit", theta=1, velocity=speed, view="b", transient=10_000_000)
+                      for speed in (0.1, 1e3, 0.2)]
             cancel = server.post("cancel", view="b")
             ended = {}
             while len(ended) < 4:
@@ -117,7 +123,8 @@ def test_a_thousand_requests_wait_at_most():
             pass
         others = [server.post("frame", rows=10, columns=10, view=str(i)) for i in range(1100)]
         ended = [server.receive()[0] for _ in range(100)]
-        assert [(header["answer"], header["sequence"]) for header in ended] == [("ended", sequence) for sequence in others[:100]]
+        assert [(header["answer"], header["sequence"]) for header in ended] == [("ended", sequence)
+                                                                                for sequence in others[:100]]
         server.post("quit")
 
 
@@ -126,17 +133,20 @@ def test_quit_answers_everything(behind):
     """Requests that are at work, that wait, and that stand behind it in the input."""
     with Server(FIG12) as server:
         lines = [{"request": "frame", "rows": 4000, "columns": 4000, "view": str(i), "sequence": i} for i in range(3)]
-        lines += [{"request": "orbit", "theta": 1, "velocity": 0, "transient": 10_000_000, "sequence": i} for i in (3, 4)]
+        lines += [{"request": "orbit", "theta": 1, "velocity": 0, "transient": 10_000_000, "sequence": i}
+                  for i in (3, 4)]
         lines.insert(0 if behind else 5, {"request": "quit", "sequence": 5})
         server.send("\n".join(map(json.dumps, lines)))
         answers = [server.receive()[0] for _ in range(6)]
-        assert {header["sequence"]: (header["answer"], header["final"]) for header in answers} == {i: ("ended", True) for i in range(6)}
+        assert {header["sequence"]: (header["answer"], header["final"])
+                for header in answers} == {i: ("ended", True) for i in range(6)}
         assert answers[-1]["sequence"] == 5 and server.process.wait() == 0
 
 
 def test_a_scene_that_is_wrong_ends_it(tmp_path):
     (tmp_path / "bad.yaml").write_text("pendulum: {k: 0.1, damping: 0.1}\nbasin: {velocity: {min: -1, max: 1}}\n")
-    done = subprocess.run([PROGRAM, "serve", tmp_path / "bad.yaml"], check=False, capture_output=True, text=True, input="")
+    done = subprocess.run([PROGRAM, "serve", tmp_path / "bad.yaml"], check=False, capture_output=True, text=True,
+                          input="")
     assert done.returncode == 2 and done.stdout == "" and "pendulum.m: is missing" in done.stderr
 
 

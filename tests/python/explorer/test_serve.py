@@ -1,4 +1,5 @@
-"""The command serve: its frames are those of a run, levels are parts of frames, orbits and ends of starts are those of the commands."""
+"""The command serve: its frames are those of a run, levels are parts of frames, orbits and ends of starts are those of
+the commands."""
 
 import json
 import os
@@ -61,7 +62,8 @@ def test_a_frame_at_rest_is_what_a_run_of_method_exact_writes(server, tmp_path):
         ids = file["basin/attractor"][:]
         points = np.stack([file["attractors/strobe_theta"][:, 0], file["attractors/strobe_velocity"][:, 0]], axis=1)
     assert np.allclose(strobe(attractors, planes["labels"]), points[ids], rtol=0, atol=1e-11)
-    assert np.all(planes["doubt"] == 0) and np.all(planes["other"] == 255) and np.all(np.isfinite(planes["settling_time"]))
+    assert np.all(planes["doubt"] == 0) and np.all(planes["other"]
+                                                   == 255) and np.all(np.isfinite(planes["settling_time"]))
 
 
 def test_a_level_shows_cells_of_the_frame(server):
@@ -75,7 +77,8 @@ def test_a_level_shows_cells_of_the_frame(server):
 
 
 def test_smooth_times_have_no_steps(server):
-    """Whole periods are steps of 1; the second difference of a smooth time is small, and it is the same in a moving frame."""
+    """Whole periods are steps of 1; the second difference of a smooth time is small, and it is the same in a moving
+    frame."""
     window = {"theta": {"min": 0.3, "max": 0.4}, "velocity": {"min": 0.02, "max": 0.08}}
     times = [server.frame(40, 60, ("labels", "smooth_time"), window=window, quality=quality)[1][-1][1]["smooth_time"]
              for quality in ("exact", "moving")]
@@ -90,9 +93,12 @@ def test_a_moving_frame_is_rougher_by_one_cell_in_a_hundred_at_most(server):
 
 
 def test_samples_of_a_deep_window_stand_for_its_cells(server):
-    """They lie within a thirty-second of a cell; where basins are fractal, that changes some labels. A level shows cells of the frame."""
-    window = {"theta": {"centre": "-0.2640114250694581920926546831048437", "width": 1e-20}, "velocity": {"centre": "1.42", "width": 1e-20}}
-    exact, moving = (server.frame(40, 60, window=window, levels=[4, 1], quality=quality)[1] for quality in ("exact", "moving"))
+    """They lie within a thirty-second of a cell; where basins are fractal, that changes some labels. A level shows
+    cells of the frame."""
+    window = {"theta": {"centre": "-0.2640114250694581920926546831048437", "width": 1e-20},
+              "velocity": {"centre": "1.42", "width": 1e-20}}
+    exact, moving = (server.frame(40, 60, window=window, levels=[4, 1], quality=quality)[1]
+                     for quality in ("exact", "moving"))
     ends_of = [ends(server, *frames[-1]) for frames in (exact, moving)]
     assert 0 < np.mean(np.any(abs(ends_of[0] - ends_of[1]) > 1e-6, axis=-1)) < 0.1
     assert np.array_equal(moving[0][1]["labels"], moving[1][1]["labels"][np.ix_(places(4, 40), places(4, 60))])
@@ -103,7 +109,8 @@ def test_frames_have_turns(server):
     _, [(_, exact)] = server.frame(20, 30, ("turns", "labels"), quality="exact")
     _, [(_, moving)] = server.frame(20, 30, ("labels", "turns"), quality="moving")
     turns = exact["turns"]
-    assert np.array_equal(turns, -turns[::-1, ::-1], equal_nan=True) and np.nanmax(turns) > 1 and np.all(np.isnan(moving["turns"]))
+    assert np.array_equal(turns, -turns[::-1, ::-1],
+                          equal_nan=True) and np.nanmax(turns) > 1 and np.all(np.isnan(moving["turns"]))
     for row, column in ((3, 4), (10, 15), (12, 3)):
         theta, velocity = -np.pi + (2 * column + 1) * np.pi / 30, -2 + (2 * row + 1) * 2 / 20
         header, _ = server.ask("where", theta=theta, velocity=velocity)[0]
@@ -128,7 +135,8 @@ def test_cores_share_a_frame(quality, size):
         planes = []
         for allowed in (cores[:1], cores[:1], cores[:2]):
             os.sched_setaffinity(server.process.pid, allowed)
-            planes.append(server.frame(*size, ("labels", "settling_time", "smooth_time"), window=WINDOW, quality=quality)[1][-1][1])
+            planes.append(server.frame(*size, ("labels", "settling_time", "smooth_time"), window=WINDOW,
+                                       quality=quality)[1][-1][1])
         ticks, children = shared(server.process)
     assert all(plane.tobytes() == planes[2][name].tobytes() for name, plane in planes[1].items())
     assert ticks > 0 and not children
@@ -163,7 +171,8 @@ def test_attractors_keep_their_tracks_when_a_slider_moves(server):
 
 
 def test_an_attractor_that_is_born_under_a_slider_is_found_at_the_next_frame(server):
-    """From 0.3 to 0.33 at once, requests without a pause: a cycle of four periods is new there, and none of its cells stays open."""
+    """From 0.3 to 0.33 at once, requests without a pause: a cycle of four periods is new there, and none of its cells
+    stays open."""
     server.frame(50, 80, quality="moving")
     frames = [server.frame(50, 80, pendulum={**OTHER, "drive_amplitude": 0.33}, quality="moving")[1] for _ in range(2)]
     first, second = (np.mean(planes["labels"] == 255) for (_, planes), in frames)
@@ -171,7 +180,8 @@ def test_an_attractor_that_is_born_under_a_slider_is_found_at_the_next_frame(ser
 
 
 def test_few_open_cells_are_no_reason_for_a_search_between_frames(server):
-    """Along the map of Fig. 12 a cascade of rotations ends in cycles of 24 periods, of some cells, which are lost at the next value."""
+    """Along the map of Fig. 12 a cascade of rotations ends in cycles of 24 periods, of some cells, which are lost at
+    the next value."""
     longest = 0
     for share in (0, 1, 2, 2):
         pendulum = {**OTHER, "drive_frequency": 11 + 0.02 * share, "drive_amplitude": 0.3 + 0.0004 * share}
@@ -183,7 +193,8 @@ def test_few_open_cells_are_no_reason_for_a_search_between_frames(server):
 def test_a_chaotic_attractor_is_carried_along_a_slider(server):
     """A tilted drive, half of whose starts end in chaos: none of them stays open at the next values."""
     for tilt in (0.1, 0.101, 0.102):
-        catalogue, frames = server.frame(40, 60, pendulum={"k": 0.1, "damping": 0.1, "m": 0.4, "tilt": tilt}, quality="moving")
+        catalogue, frames = server.frame(40, 60, pendulum={"k": 0.1, "damping": 0.1, "m": 0.4, "tilt": tilt},
+                                         quality="moving")
         labels = frames[-1][1]["labels"]
         chaotic = [attractor["id"] for attractor in catalogue["attractors"] if attractor["kind"] == "chaotic"]
         assert len(chaotic) == 1 and 0.4 < np.mean(labels == chaotic[0]) < 0.55 and np.mean(labels == 255) < 0.01
@@ -192,29 +203,34 @@ def test_a_chaotic_attractor_is_carried_along_a_slider(server):
 def test_a_running_state_is_born_along_a_slider(server):
     """At the torque .127; the frame that follows shows it."""
     for torque, kinds in ((0.125, {"down"}), (0.13, {"down"}), (0.14, {"down", "running +"})):
-        catalogue, frames = server.frame(40, 60, pendulum={"k": 1, "damping": 0.1, "m": 0, "torque": torque}, quality="moving")
+        catalogue, frames = server.frame(40, 60, pendulum={"k": 1, "damping": 0.1, "m": 0, "torque": torque},
+                                         quality="moving")
         assert {attractor["kind"] for attractor in catalogue["attractors"]} == kinds
         assert np.any(frames[-1][1]["labels"] == 255) == (torque == 0.13)
 
 
 def test_a_running_state_is_carried_along_a_slider(server):
-    """Its band is found anew at each value, with numerics for its speed; it keeps its colour, and every start has its end."""
+    """Its band is found anew at each value, with numerics for its speed; it keeps its colour, and every start has its
+    end."""
     tracks = set()
     for torque in (0.5, 0.501, 0.502, 0.55):
-        catalogue, frames = server.frame(40, 60, pendulum={"k": 1, "damping": 0.1, "m": 0, "torque": torque}, quality="moving")
+        catalogue, frames = server.frame(40, 60, pendulum={"k": 1, "damping": 0.1, "m": 0, "torque": torque},
+                                         quality="moving")
         found = {attractor["kind"]: attractor for attractor in catalogue["attractors"]}
         labels = frames[-1][1]["labels"]
         assert set(found) == {"down", "running +"} and not np.any(labels == 255)
         assert found["running +"]["mean_velocity"] == pytest.approx(10 * torque, abs=0.02)
         tracks.add(found["running +"]["track"])
     assert len(tracks) == 1
-    exact = server.frame(40, 60, pendulum={"k": 1, "damping": 0.1, "m": 0, "torque": torque}, quality="exact")[1][-1][1]["labels"]
+    exact = server.frame(40, 60, pendulum={"k": 1, "damping": 0.1, "m": 0, "torque": torque},
+                         quality="exact")[1][-1][1]["labels"]
     assert np.mean(exact != labels) < 0.01
 
 
 def test_weaker_damping_gets_more_periods_than_the_scene_has(server):
     """And not as many as its motions take to settle, 900 on average: orbits have told regions that trap earlier."""
-    _, frames = server.frame(20, 30, ("labels", "settling_time"), pendulum={**OTHER, "quality_factor": 60}, quality="moving")
+    _, frames = server.frame(20, 30, ("labels", "settling_time"), pendulum={**OTHER, "quality_factor": 60},
+                             quality="moving")
     planes = frames[-1][1]
     assert np.mean(planes["labels"] == 255) < 0.2
     assert 60 < np.nanmean(planes["settling_time"]) < 450
@@ -223,13 +239,15 @@ def test_weaker_damping_gets_more_periods_than_the_scene_has(server):
 def test_a_moving_frame_of_weak_damping_shows_the_same_basins(server):
     """Lace finer than a cell is another lace; what fills cells is the same, rotations to either side included."""
     weak = {**OTHER, "quality_factor": 20}
-    exact, moving = (ends(server, *server.frame(24, 36, pendulum=weak, quality=quality)[1][-1]) for quality in ("exact", "moving"))
+    exact, moving = (ends(server, *server.frame(24, 36, pendulum=weak, quality=quality)[1][-1])
+                     for quality in ("exact", "moving"))
     assert np.mean(np.any(abs(exact - moving) > 1e-4, axis=-1)) < 0.2
 
 
 def test_where_answers_as_the_command_does(server):
     answer = server.ask("where", theta="1.2", velocity=0.3)[0][0]
-    told = json.loads(subprocess.run([PROGRAM, "where", FIG12, "1.2", "0.3", "--json"], check=True, capture_output=True).stdout)
+    told = json.loads(subprocess.run([PROGRAM, "where", FIG12, "1.2", "0.3", "--json"], check=True,
+                                     capture_output=True).stdout)
     same = [key for key in told if key not in ("attractor", "error", "settling_time")]
     assert {key: answer[key] for key in same} == {key: told[key] for key in same}
 
@@ -264,8 +282,10 @@ def drag(server, views):
     for i in range(views):
         pendulum = {**OTHER, "drive_amplitude": 0.30 + 0.01 * (i % 50) / 50}
         centre, width = 1 + 0.3 * np.sin(i), 2 * 0.97 ** (i % 100)
-        window = {"theta": {"centre": f"{centre:.20f}", "width": f"{width:.20f}"}, "velocity": {"min": -width, "max": width}}
-        server.frame(50, 80, pendulum=pendulum, window=window, levels=[8, 1], quality="exact" if i % 25 == 0 else "moving")
+        window = {"theta": {"centre": f"{centre:.20f}", "width": f"{width:.20f}"},
+                  "velocity": {"min": -width, "max": width}}
+        server.frame(50, 80, pendulum=pendulum, window=window, levels=[8, 1], quality="exact" if i % 25 == 0
+                     else "moving")
 
 
 @pytest.mark.extensive

@@ -17,7 +17,8 @@ from serving import Server
 def rig(request, kapitza, tmp_path_factory):
     keys, force = RIGS[request.param]
     basin = {**WINDOW, "method": "exact", "attractors": {"starts": 256}}
-    return force, request.param, run(kapitza, tmp_path_factory.mktemp("rig"), {"pendulum": {**PENDULUM, **keys}, "basin": basin})
+    return force, request.param, run(kapitza, tmp_path_factory.mktemp("rig"),
+                                     {"pendulum": {**PENDULUM, **keys}, "basin": basin})
 
 
 def test_published_cycles_obey_the_equation(rig):
@@ -46,7 +47,8 @@ def test_attractors_have_mirror_images_where_the_pendulum_is_mirrored(rig):
 
 @pytest.mark.extensive
 def test_samples_are_the_harmonics_that_they_hold(kapitza, tmp_path):
-    """Cosine of order 1 and sine of order 2, 8 samples; 64 samples of a square wave hold more, and what is left is told."""
+    """Cosine of order 1 and sine of order 2, 8 samples; 64 samples of a square wave hold more, and what is left is
+    told."""
     samples = [math.cos(math.pi * i / 4) + 0.25 * math.sin(math.pi * i / 2) for i in range(8)]
     basin = {"basin": {**WINDOW, "method": "direct", "attractors": {"starts": 256}}}
     labels = [run(kapitza, tmp_path, {"pendulum": {**PENDULUM, **keys}, **basin})["basin/attractor"][:]
@@ -68,16 +70,20 @@ def coefficients(file):
     """The pendulum of a file as a mapping of a scene, from nothing but the numbers that were integrated."""
     group, numbers = file["pendulum"], dict(file["pendulum"].attrs)
     pendulum = {"k": numbers["k"], "damping": numbers["beta"], "m": numbers["m"]}
-    pendulum |= {name: [float(value) for value in group[name][:].ravel()] for name in ("vertical", "horizontal") if name in group}
+    pendulum |= {name: [float(value) for value in group[name][:].ravel()] for name in ("vertical", "horizontal")
+                 if name in group}
     pendulum |= {name: numbers[name] for name in ("torque", "torque_amplitude") if name in numbers}
-    ramp = {name.removeprefix("ramp_"): value for name, value in numbers.items() if name.startswith("ramp_") and name != "ramp_strength"}
+    ramp = {name.removeprefix("ramp_"): value for name, value in numbers.items() if name.startswith("ramp_")
+            and name != "ramp_strength"}
     return pendulum | ({"ramp": ramp} if ramp else {}), numbers.get("start_phase", 0)
 
 
 @pytest.mark.parametrize("keys, basin", [
     pytest.param({"tilt": "5 deg", "ellipse": 0.1, "torque": 0.001}, {}, marks=pytest.mark.extensive),
-    ({"waveform": "square", "harmonics": [{"order": 2, "amplitude": 0.1, "phase": "50 deg"}], "ramp": SMOOTH}, {"start_phase": 7.5}),
-    ({"waveform": "samples", "samples": [1, 0.3, -0.8, -0.4, 0.1], "tilt": 0.01, "ramp": LINEAR}, {"start_phase": "-40 deg"}),
+    ({"waveform": "square", "harmonics": [{"order": 2, "amplitude": 0.1, "phase": "50 deg"}], "ramp": SMOOTH},
+     {"start_phase": 7.5}),
+    ({"waveform": "samples", "samples": [1, 0.3, -0.8, -0.4, 0.1], "tilt": 0.01, "ramp": LINEAR},
+     {"start_phase": "-40 deg"}),
     ({"torque_amplitude": 0.7, "drive_amplitude": 0, "torque": 0.01, "ramp": LINEAR}, {"start_phase": 2})])
 def test_a_file_holds_every_coefficient_that_was_integrated(kapitza, tmp_path, keys, basin):
     basin = {**WINDOW, **basin, "method": "direct", "attractors": {"starts": 64}}
@@ -88,7 +94,8 @@ def test_a_file_holds_every_coefficient_that_was_integrated(kapitza, tmp_path, k
     for group in ("attractors", "basin", "pendulum"):
         assert set(file[group]) == set(again[group])
         for name in file[group]:
-            assert file[group][name][()].tobytes() == again[group][name][()].tobytes() or file[group][name].dtype.kind == "O"
+            assert (file[group][name][()].tobytes() == again[group][name][()].tobytes()
+                    or file[group][name].dtype.kind == "O")
     assert coefficients(again) == (pendulum, phase)
 
 
@@ -102,12 +109,14 @@ def test_overtones_are_in_proportion_to_the_drive(kapitza, tmp_path):
     share = dict(zip(swept["sweep/branch_name"].asstr()[attracts], swept["sweep/fraction"][-1, attracts], strict=True))
     for pendulum in (scene["pendulum"] | {"m": 0.9662}, {"k": 0.0949, "damping": 0.4657, "m": 1.4493}):
         file = run(kapitza, tmp_path, scene | {"pendulum": pendulum})["attractors"]
-        assert all(abs(share[name] - part) < 0.01 for name, part in zip(file["name"].asstr()[:], file["fraction"][:], strict=True))
+        assert all(abs(share[name] - part) < 0.01 for name, part in zip(file["name"].asstr()[:], file["fraction"][:],
+                                                                        strict=True))
 
 
 @pytest.mark.parametrize("keys, rest", [({}, "(for drive_amplitude"),
                                         ({"waveform": "square"}, "down: stable (for drive_amplitude from 0.1"),
-                                        ({"waveform": "square", "drive_amplitude": 0.05}, "down: unstable (stable for drive_amplitude"),
+                                        ({"waveform": "square", "drive_amplitude": 0.05},
+                                         "down: unstable (stable for drive_amplitude"),
                                         ({"torque": 0.01}, "Rest: none")])
 def test_rest_is_told_for_the_drive_that_is_there(kapitza, tmp_path, keys, rest):
     (tmp_path / "rig.yaml").write_text(json.dumps({"pendulum": {**PENDULUM, **keys}, "basin": WINDOW}))
@@ -134,21 +143,26 @@ def bessel(n, x):
 
 @pytest.mark.parametrize("n", [0, 1])
 def test_shapiro_steps_are_as_wide_as_bessel_functions(kapitza, tmp_path, n):
-    """Kautz, Rep. Prog. Phys. 59 (1996) 935: under a fast drive step n reaches to beta n + k |J_n(a)|, a the swing's amplitude."""
+    """Kautz, Rep. Prog. Phys. 59 (1996) 935: under a fast drive step n reaches to beta n + k |J_n(a)|, a the swing's
+    amplitude."""
     k, beta, amplitude = 0.02, 0.3, 1.5
     half = k * abs(bessel(n, amplitude / math.hypot(1, beta)))
-    sweep = {"parameter": "torque", "min": beta * n, "max": beta * n + 1.2 * half, "count": 2, "measure": ["attractors"],
+    sweep = {"parameter": "torque", "min": beta * n, "max": beta * n + 1.2 * half, "count": 2,
+             "measure": ["attractors"],
              "starts": 16, "velocity": {"min": n - 0.5, "max": n + 0.5}, "theta": {"min": -math.pi, "max": math.pi}}
-    file = run(kapitza, tmp_path, {"pendulum": {"k": k, "damping": beta, "m": 0, "torque": 0, "torque_amplitude": amplitude},
+    file = run(kapitza, tmp_path,
+               {"pendulum": {"k": k, "damping": beta, "m": 0, "torque": 0, "torque_amplitude": amplitude},
                                    "numerics": {"scheme": "split6", "steps_per_period": 24}, "sweep": sweep})
     names = list(file["sweep/branch_name"].asstr()[:])
     step = names.index("rotation +1/1" if n else "down")
     assert abs((file["sweep/branch_end"][step] - beta * n) / half - 1) < 2e-3
 
 
-@pytest.mark.parametrize(("m", "torque", "amplitude"), with_extensive([(0, 0, 1.2), (0, 0, 12), (0.2, 0.05, 0.4)], [(0, 0.13, 1.2)]))
+@pytest.mark.parametrize(("m", "torque", "amplitude"), with_extensive([(0, 0, 1.2), (0, 0, 12), (0.2, 0.05, 0.4)],
+                                                                      [(0, 0.13, 1.2)]))
 def test_an_oscillating_torque_is_that_of_the_equation(kapitza, tmp_path, m, torque, amplitude):
-    """Cycles obey theta'' + beta theta' + (k - m cos t) sin theta = torque + T cos t in the rod's own angle; k is the scene's."""
+    """Cycles obey theta'' + beta theta' + (k - m cos t) sin theta = torque + T cos t in the rod's own angle; k is the
+    scene's."""
     k, beta = 0.3, 0.5
     scene = {"pendulum": {"k": k, "damping": beta, "m": m, "torque": torque, "torque_amplitude": amplitude},
              "attractors": {"velocity": {"min": -1, "max": 1}, "starts": 64}}
@@ -156,7 +170,8 @@ def test_an_oscillating_torque_is_that_of_the_equation(kapitza, tmp_path, m, tor
     assert (file["pendulum"].attrs["k"], file["pendulum"].attrs["torque_amplitude"]) == (k, amplitude)
     found = file["attractors"]
     x = np.array([found["strobe_theta"][0, 0], found["strobe_velocity"][0, 0]])
-    end = flown(lambda t, y: [y[1], torque + amplitude * math.cos(t) - beta * y[1] - (k - m * math.cos(t)) * math.sin(y[0])],
+    end = flown(lambda t,
+                y: [y[1], torque + amplitude * math.cos(t) - beta * y[1] - (k - m * math.cos(t)) * math.sin(y[0])],
                 2 * math.pi * int(found["period"][0]), x, 1e-12)
     assert abs(math.remainder(end[0] - x[0], 2 * math.pi)) < 1e-9 and abs(end[1] - x[1]) < 1e-9
 
@@ -180,14 +195,18 @@ def test_saddles_manifolds_and_orbits_are_of_the_drive(kapitza, tmp_path, name):
 
 
 
-@pytest.mark.parametrize("keys", with_extensive([{"waveform": "triangle"}], [{"drive_amplitude": 0, "torque_amplitude": 0.5}]))
+@pytest.mark.parametrize("keys",
+                         with_extensive([{"waveform": "triangle"}], [{"drive_amplitude": 0, "torque_amplitude": 0.5}]))
 def test_folding_changes_no_byte(kapitza, tmp_path, keys):
-    """A window that is its own mirror image is computed by half, if the pendulum has mirror images; with a row more nothing is folded."""
+    """A window that is its own mirror image is computed by half, if the pendulum has mirror images; with a row more
+    nothing is folded."""
     basin = {"method": "exact", "theta": {"count": 24}, "attractors": {"starts": 256}}
     scene = {"pendulum": {**PENDULUM, **keys}}
-    folded = run(kapitza, tmp_path, {**scene, "basin": {**basin, "velocity": {"min": -2, "max": 2, "count": 16}}})["basin"]
+    folded = run(kapitza, tmp_path,
+                 {**scene, "basin": {**basin, "velocity": {"min": -2, "max": 2, "count": 16}}})["basin"]
     folded = {name: folded[name][:] for name in ("attractor", "settling_time", "velocity")}
-    whole = run(kapitza, tmp_path, {**scene, "basin": {**basin, "velocity": {"min": -2, "max": 2.25, "count": 17}}})["basin"]
+    whole = run(kapitza, tmp_path,
+                {**scene, "basin": {**basin, "velocity": {"min": -2, "max": 2.25, "count": 17}}})["basin"]
     for name, values in folded.items():
         assert (whole[name][:16] == values).all(), name
 
@@ -197,13 +216,16 @@ OVER_TILT = {"parameter": "tilt", "min": 0, "max": 0.2, "count": 2}
 
 @pytest.mark.parametrize("keys, study, named", [
     ({"torque": 0.1}, {"potential": {"drive_amplitudes": [0.3]}}, "pendulum.torque: study potential"),
-    ({"tilt": 0}, {"basin": {**WINDOW, "method": "icm"}, "sweep": {**OVER_TILT, "measure": ["basin_fractions"]}}, "basin.method icm"),
+    ({"tilt": 0}, {"basin": {**WINDOW, "method": "icm"}, "sweep": {**OVER_TILT, "measure": ["basin_fractions"]}},
+     "basin.method icm"),
     ({"tilt": 0}, {"sweep": {"x": OVER_TILT, "y": {"parameter": "drive_amplitude", "min": 0.1, "max": 0.2, "count": 2},
                              "measure": ["ends"], "ends": {"theta": [1]}}}, "pendulum.tilt: sweep.measure ends"),
-    ({}, {"basin": {**WINDOW, "method": "icm"}, "sweep": {**OVER_TILT, "parameter": "drive_amplitude", "measure": ["phases"]}},
+    ({}, {"basin": {**WINDOW, "method": "icm"}, "sweep": {**OVER_TILT, "parameter": "drive_amplitude",
+                                                          "measure": ["phases"]}},
      "sweep.measure: phases"),
     ({"ramp": LINEAR}, {"attractors": {"velocity": {"min": -1, "max": 1}}}, "pendulum.ramp: needs the study basin"),
-    ({"ramp": LINEAR}, {"basin": WINDOW, "orbit": {"start": {"theta": 1, "velocity": 0}}}, "pendulum.ramp: study orbit"),
+    ({"ramp": LINEAR}, {"basin": WINDOW, "orbit": {"start": {"theta": 1, "velocity": 0}}},
+     "pendulum.ramp: study orbit"),
     ({"ramp": {**LINEAR, "from": -1}}, {"basin": WINDOW}, "pendulum.ramp.from"),
     ({"waveform": "samples"}, {"basin": WINDOW}, "pendulum.samples"),
     ({"samples": [1, 0, -1, 0]}, {"basin": WINDOW}, "pendulum.waveform: samples"),
@@ -220,7 +242,8 @@ def test_what_a_drive_does_not_allow_is_refused_by_name(kapitza, tmp_path, keys,
     assert named in refused_scene(kapitza, tmp_path, {"pendulum": {**PENDULUM, **keys}, **study}, command="check")
 
 
-FRAMED = [({"tilt": math.pi / 36}, {}), ({"harmonics": [{"order": 2, "amplitude": 0.1, "phase": 0.5}], "torque": 0.002}, {}),
+FRAMED = [({"tilt": math.pi / 36}, {}), ({"harmonics": [{"order": 2, "amplitude": 0.1, "phase": 0.5}], "torque": 0.002},
+                                         {}),
           ({"torque_amplitude": 0.02, "torque": 0.001}, {}),
           pytest.param({"ramp": SMOOTH}, {"start_phase": 1}, marks=pytest.mark.extensive)]
 
@@ -235,7 +258,8 @@ def ends(server, **keys):
 @pytest.mark.parametrize("keys, basin", FRAMED)
 def test_frames_are_what_a_run_writes(kapitza, tmp_path, keys, basin):
     """Of the engine that the explorer and kapitza.Engine use; `ready` has the keys as a request takes them back."""
-    scene = {"pendulum": {**PENDULUM, **keys}, "basin": {**WINDOW, **basin, "method": "exact", "attractors": {"starts": 256}}}
+    scene = {"pendulum": {**PENDULUM, **keys},
+             "basin": {**WINDOW, **basin, "method": "exact", "attractors": {"starts": 256}}}
     file = run(kapitza, tmp_path, scene)
     points = np.column_stack([file["attractors/strobe_theta"][:, 0], file["attractors/strobe_velocity"][:, 0]])
     with Server(tmp_path / "rig.yaml") as server:
@@ -255,10 +279,12 @@ def test_a_laboratory_has_all_drives():
     k = 9.80665 / (0.2 * omega**2)
     plain = {"k": k, "damping": math.sqrt(k) / 5, "m": 0.03 / 0.2}
     laboratory = {"length": "20 cm", "frequency": "12 Hz", "amplitude": "3 cm", "quality_factor": 5}
-    drives = [{"tilt": "5 deg"}, {"ellipse": 0.2, "torque": 0.001}, {"waveform": "samples", "samples": [1, 0.3, -1, -0.3]},
+    drives = [{"tilt": "5 deg"}, {"ellipse": 0.2, "torque": 0.001},
+              {"waveform": "samples", "samples": [1, 0.3, -1, -0.3]},
               {"harmonics": [{"order": 2, "amplitude": 0.05, "phase": "90 deg"}]}, {"ramp": LINEAR}]
     with kapitza_package.Engine({"pendulum": laboratory, "basin": {**WINDOW, "attractors": {"starts": 64}}}) as engine:
-        shown = [[engine.frame(shape=(12, 16), pendulum={**form, **drive}, quality="exact") for form in (laboratory, plain)]
+        shown = [[engine.frame(shape=(12, 16), pendulum={**form, **drive}, quality="exact")
+                  for form in (laboratory, plain)]
                  for drive in drives]
     assert all((both[0] == both[1]).mean() > 0.98 for both in shown)
     assert all((one[0] != other[0]).any() for one, other in itertools.combinations(shown, 2))
@@ -268,14 +294,16 @@ def test_what_knows_the_sine_alone_is_refused_on_request(kapitza, tmp_path):
     """Deep windows at many phases; charts; an orbit that is released at a phase. A deep frame at one phase is drawn."""
     small, axis = ROOT / "scenes" / "small.yaml", {"centre": "1", "width": 1e-9}
     centred = {"theta": axis, "velocity": axis}
-    options = ["--set", "basin.phases=4", "--set", 'basin.theta={centre: "1", width: 0.1, count: 4}', "--set", "basin.method=exact"]
+    options = ["--set", "basin.phases=4", "--set", 'basin.theta={centre: "1", width: 0.1, count: 4}', "--set",
+               "basin.method=exact"]
     done = kapitza("check", small, *options, folder=tmp_path, status=2)
     assert "give min and max" in done.stderr
     with Server(small, "--set", "pendulum.tilt=5 deg", "--set", "basin.start_phase=1") as server:
         axes = {"x": {"parameter": "drive_amplitude", "min": 0, "max": 1, "count": 4},
                 "y": {"parameter": "drive_frequency", "min": 5, "max": 6, "count": 4}}
         said = [server.ask(name, **request)[-1][0] for name, request in
-                (("frame", {"rows": 8, "columns": 8, "window": centred}), ("chart", axes), ("orbit", {"theta": 0, "velocity": 0}))]
+                (("frame", {"rows": 8, "columns": 8, "window": centred}), ("chart", axes),
+                 ("orbit", {"theta": 0, "velocity": 0}))]
         assert [header["answer"] for header in said] == ["frame", "error", "error"]
         for words, header in zip(("up and down as a sine", "begins at phase 0"), said[1:], strict=True):
             assert words in header["message"]
@@ -313,7 +341,8 @@ RELEASED = {5: ({}, {"start_phase": 1}), 6: ({"ramp": LINEAR}, {})}  # by column
 @pytest.mark.parametrize("row", STUDIES)
 def test_what_the_table_of_drives_says_no_to_is_refused(kapitza, tmp_path, row):
     """docs/reference/commands.md; by the key of the drive, or of the release."""
-    lines = (ROOT / "docs" / "reference" / "commands.md").read_text().split("### Drives")[1].split("### ")[0].splitlines()
+    lines = (ROOT / "docs" / "reference"
+             / "commands.md").read_text().split("### Drives")[1].split("### ")[0].splitlines()
     cells = next(line for line in lines if line.startswith("| ") and f"`{row}`" in line.split("|")[1]).split("|")
     for column, keys in enumerate(DRIVES.values(), 3):
         for study in STUDIES[row] if cells[column].strip().startswith("no") else []:

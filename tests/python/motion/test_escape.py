@@ -11,7 +11,8 @@ SCENE = {"pendulum": {"quality_factor": 5, "drive_frequency": 11, "drive_amplitu
 # epsilon, action of the least torque from inverted to this saddle, its name; the last ones take minutes.
 BARRIERS = [(0.2, 0.0031059836, "unstable wide 1-nodding"), (0.25, 0.0071216163, "unstable wide 1-nodding")]
 MORE_BARRIERS = [(0.15, 0.00035979758, "unstable inverted"), (0.3, 0.0100714374, "unstable wide 1-nodding"),
-                 (0.35, 0.0084429662, "unstable inverted 6-nodding"), (0.4, 0.0043563495, "unstable inverted 4-nodding"),
+                 (0.35, 0.0084429662, "unstable inverted 6-nodding"),
+                 (0.4, 0.0043563495, "unstable inverted 4-nodding"),
                  (0.45, 0.0040390822, "unstable inverted 4-nodding")]
 
 
@@ -29,9 +30,11 @@ def named(result, group, name):
 
 @pytest.mark.parametrize(("epsilon", "barrier", "name"), with_extensive(BARRIERS, MORE_BARRIERS))
 def test_barriers_of_the_inverted_state(kapitza, tmp_path, epsilon, barrier, name):
-    """Each to 1e-8 for its saddle; beyond the saddle lies another basin, but that of n-noddings inside the well meets its own again."""
+    """Each to 1e-8 for its saddle; beyond the saddle lies another basin, but that of n-noddings inside the well meets
+    its own again."""
     scene = at(epsilon, 6 if epsilon > 0.3 else 2, starts=40)
-    found, _ = run_scene(kapitza, tmp_path, {name: scene[name] for name in ("pendulum", "attractors")}, name="attractors")
+    found, _ = run_scene(kapitza, tmp_path, {name: scene[name] for name in ("pendulum", "attractors")},
+                         name="attractors")
     inverted = named(found, "attractors", "inverted")[0]
     scene["escape"]["from"] = [inverted]
     result, _ = run_scene(kapitza, tmp_path, scene, ranks=2)
@@ -49,7 +52,8 @@ def fig12(kapitza, tmp_path_factory):
 
 
 def test_a_path_obeys_the_equation_and_costs_its_action(fig12):
-    """The torque of the file, put into the pendulum's equation by differences, leads along the path; its square gives the barrier."""
+    """The torque of the file, put into the pendulum's equation by differences, leads along the path; its square gives
+    the barrier."""
     result, summary = fig12
     escape = result.group("escape")
     inverted = named(result, "attractors", "inverted")[0]
@@ -71,8 +75,10 @@ def test_a_path_obeys_the_equation_and_costs_its_action(fig12):
 def test_pictures_and_what_they_refuse(fig12, tmp_path):
     path = fig12[0].path
     assert plot("escape", path, "--attractor", "inverted", "-o", tmp_path / "way.png", "--dpi", "60").returncode == 0
-    assert "escape.into_every_basin gives the others" in plot("escape", path, "--into", "down", "-o", tmp_path / "no.png").stderr
-    assert "has no attractor nodding" in plot("escape", path, "--attractor", "nodding", "-o", tmp_path / "no.png").stderr
+    assert "escape.into_every_basin gives the others" in plot("escape", path, "--into", "down", "-o",
+                                                              tmp_path / "no.png").stderr
+    assert "has no attractor nodding" in plot("escape", path, "--attractor", "nodding", "-o",
+                                              tmp_path / "no.png").stderr
 
 
 def test_ways_out_of_a_pendulum_in_this_process(fig12):
@@ -95,7 +101,8 @@ def test_ways_out_of_a_pendulum_in_this_process(fig12):
 
 
 def test_counted_lives_are_those_of_the_barrier(fig12, kapitza, tmp_path):
-    """Lives end as their barrier says: the slope of ln(life) over 1/T lies between R - T and R, within the error of the count."""
+    """Lives end as their barrier says: the slope of ln(life) over 1/T lies between R - T and R, within the error of the
+    count."""
     inverted = named(fig12[0], "attractors", "inverted")[0]
     counted = at(0.2, starts=2, temperatures=[0.001, 0.0015], walkers=256, **{"from": [inverted]})
     escape = run_scene(kapitza, tmp_path, counted, ranks=2)[0].group("escape")
@@ -109,10 +116,12 @@ def test_counted_lives_are_those_of_the_barrier(fig12, kapitza, tmp_path):
 
 def test_the_bytes_do_not_depend_on_the_ranks(fig12, kapitza, tmp_path):
     result, _ = fig12
-    assert datasets(stopped_and_resumed(kapitza, tmp_path, at(0.25, **WITH_COUNT), ranks=3).path) == datasets(result.path)
+    assert datasets(stopped_and_resumed(kapitza, tmp_path, at(0.25, **WITH_COUNT),
+                                        ranks=3).path) == datasets(result.path)
 
 
 def test_incomplete_saddles_and_motions_that_are_no_cycles_are_refused(kapitza, tmp_path):
-    narrow = {**SCENE, "saddles": {"theta": {"min": -1, "max": 1}, "velocity": {"min": -0.2, "max": 0.2}, "max_period": 1}}
+    narrow = {**SCENE, "saddles": {"theta": {"min": -1, "max": 1}, "velocity": {"min": -0.2, "max": 0.2},
+                                   "max_period": 1}}
     assert "of the index sums are not 0" in refused_scene(kapitza, tmp_path, narrow, command="run")
     assert "there is no attractor 99" in refused_scene(kapitza, tmp_path, at(0.25, **{"from": [99]}), command="run")

@@ -13,7 +13,8 @@ def test_the_effective_potential_has_a_well_from_the_boundary_on(model, beta):
     k = 1 / 121
     boundary = sqrt(2 * k * ((1 + k) ** 2 + beta**2) / (1 + k))
     amplitudes = [boundary * (1 - 1e-9), boundary * (1 + 1e-9)]
-    group = model({"k": k, "damping": beta, "m": 0.3}, potential={"drive_amplitudes": amplitudes, "theta": {"count": 3}}).group("potential")
+    group = model({"k": k, "damping": beta, "m": 0.3},
+                  potential={"drive_amplitudes": amplitudes, "theta": {"count": 3}}).group("potential")
     assert group["stable_inverted"].values.tolist() == [0, 1]
 
 

@@ -1,4 +1,5 @@
-"""Manifolds, shared boundaries and tangencies in Python: against scipy, formulas, symmetry, and the compiled studies that they replace."""
+"""Manifolds, shared boundaries and tangencies in Python: against scipy, formulas, symmetry, and the compiled studies
+that they replace."""
 
 import math
 import re
@@ -28,7 +29,8 @@ def fig12():
 def branch_of(group, saddle, branch, kind):
     """Points (n, 2) and arc lengths of one branch."""
     rows = (group["saddle"].values == saddle) & (group["branch"].values == branch) & (group["kind"].values == kind)
-    return np.stack([group["theta"].values[rows], group["velocity"].values[rows]], axis=1), group["arc_length"].values[rows]
+    return np.stack([group["theta"].values[rows], group["velocity"].values[rows]],
+                    axis=1), group["arc_length"].values[rows]
 
 
 def wrapped(angle):
@@ -71,7 +73,8 @@ def test_points_are_as_near_as_asked(fig12):
 
 
 def test_tails_that_are_stretched_far():
-    """A saddle of Fig. 13 with the multiplier -31.7: straight lines of up to 1 rad joined its manifold's ends 16 rad from it."""
+    """A saddle of Fig. 13 with the multiplier -31.7: straight lines of up to 1 rad joined its manifold's ends 16 rad
+    from it."""
     strong = Pendulum(**FIG12 | {"drive_amplitude": 0.46})
     saddle = strong.saddles(max_period=2).isel(cycle=[6])
     curves = manifolds(strong, saddle, kind="stable", spacing=SPACING)
@@ -114,11 +117,13 @@ def forced():
 
 
 def test_the_forced_pendulum_has_one_boundary(forced):
-    """Nusse and Yorke's pendulum: the cycles on a boundary bound all three basins; the two flip cycles inside a basin bound nothing."""
+    """Nusse and Yorke's pendulum: the cycles on a boundary bound all three basins; the two flip cycles inside a basin
+    bound nothing."""
     _, cycles, found = forced
     assert found.sizes["attractor"] == 3 and np.all(found["wada"].values == YES)
     inside = cycles["multiplier_re"].values[:, 0] < -1
-    assert inside.sum() == 2 and np.all(found["basins"].values == np.where(inside, 1, 3)) and np.all(found["followed"].values[inside] == 1)
+    assert inside.sum() == 2 and np.all(found["basins"].values
+                                        == np.where(inside, 1, 3)) and np.all(found["followed"].values[inside] == 1)
     shared = np.where(np.eye(3), 0, 3)
     assert np.array_equal(found["pair_cycles"].values, shared) and np.array_equal(found["pair_shared"].values, shared)
 
@@ -144,10 +149,12 @@ def test_witnesses_end_where_they_should(forced):
 
 
 def test_two_basins_can_share_a_boundary_without_the_third():
-    """Fig. 11: the cycles at the rim of the inverted well have down on the other side; those of the rotations have down and inverted."""
+    """Fig. 11: the cycles at the rim of the inverted well have down on the other side; those of the rotations have down
+    and inverted."""
     pendulum = Pendulum(**FIG12 | {"drive_amplitude": 0.2})
     found = wada(pendulum, pendulum.saddles(velocity=(-1.5, 1.5)), length=13, spacing=0.05)
-    down, inverted, one, other = (found.attrs["names"].index(name) for name in ("down", "inverted", "rotation +1/1", "rotation -1/1"))
+    down, inverted, one, other = (found.attrs["names"].index(name)
+                                  for name in ("down", "inverted", "rotation +1/1", "rotation -1/1"))
     assert [found["wada"].values[i] for i in (down, inverted, one, other)] == [PARTLY, PARTLY, YES, YES]
     rim = found["basins"].values == 2
     assert rim.sum() == 2 and np.all(found["followed"].values[rim] == 1)
@@ -196,7 +203,8 @@ def test_a_range_without_a_tangency_is_refused(parameter, low, high, words):
 
 def test_a_picture_of_measures_marks_the_value(weak, kapitza, tmp_path):
     """Shares of a sweep of the same key, with their band, and the dashed line at the value."""
-    sweep = {"parameter": "m", "min": 0.04, "max": 0.08, "count": 3, "measure": ["share"], "starts": 64, "velocity": {"min": -1, "max": 1}}
+    sweep = {"parameter": "m", "min": 0.04, "max": 0.08, "count": 3, "measure": ["share"], "starts": 64,
+             "velocity": {"min": -1, "max": 1}}
     result, _ = run_scene(kapitza, tmp_path, {"pendulum": {"k": 1, "damping": 0.02, "m": 0.05}, "sweep": sweep})
     result = result.add("tangency", weak)
     axes, = measure_lines.draw(result).axes
@@ -208,5 +216,6 @@ def test_a_picture_of_measures_marks_the_value(weak, kapitza, tmp_path):
 
 @pytest.mark.extensive
 def test_the_tool_finds_its_number_again():
-    done = subprocess.run([sys.executable, TOOL, "1", "0.02", "0.04", "0.1"], check=True, capture_output=True, text=True)
+    done = subprocess.run([sys.executable, TOOL, "1", "0.02", "0.04", "0.1"], check=True, capture_output=True,
+                          text=True)
     assert float(re.search(r"m = (\S+)", done.stdout)[1]) == pytest.approx(SCIPY, abs=1e-12)

@@ -11,7 +11,8 @@ from orbit_scenes import BLACKBURN, FIGURES, NODDING, WINDOW, closed, parameters
 
 
 def test_open_record_tells_the_period(model):
-    """The settled motion, not closed by Newton: its windowed lines tell n and the winding of the cycle that attracts it."""
+    """The settled motion, not closed by Newton: its windowed lines tell n and the winding of the cycle that attracts
+    it."""
     cycle = NODDING["n4_bottom_k0.02_m0.307_Q8"]
     theta, velocity = map(float, cycle["strobe_theta_v_at_t0"][0])
     start = {"theta": theta + 0.01, "velocity": velocity}
@@ -38,7 +39,8 @@ def test_the_slow_motion_has_its_fast_part(model):
     slow = model(pendulum, orbit={"model": "effective", "start": start, "periods": 5}).group("orbit")
     xi, theta = slow["xi"].values, slow["theta"].values
     assert np.abs(xi + 0.15 * np.sin(theta) * np.cos(slow["time"].values)).max() < 1e-14
-    whole = model(pendulum, orbit={"start": {"theta": theta[0] + xi[0], "velocity": 0}, "periods": 5}).group("orbit")["theta"].values
+    whole = model(pendulum, orbit={"start": {"theta": theta[0] + xi[0], "velocity": 0},
+                                   "periods": 5}).group("orbit")["theta"].values
     whole = whole[::(len(whole) - 1) // (len(theta) - 1)]
     assert np.abs(theta + xi - whole).max() < 0.3 * np.abs(theta - whole).max()
 
@@ -55,7 +57,8 @@ def test_chaos_is_never_a_long_period(model):
     listed = model(pendulum, attractors={"velocity": {"min": -2, "max": 2}}).group("attractors")
     assert [str(name) for name in listed["name"].values] == ["chaotic"]
     assert listed["lyapunov"].values[0] > 5 * listed["lyapunov_error"].values[0] > 0
-    orbit = model(pendulum, orbit={"start": {"theta": 1, "velocity": 0.2}, "transient": 1000, "periods": 400}).group("orbit")
+    orbit = model(pendulum, orbit={"start": {"theta": 1, "velocity": 0.2}, "transient": 1000,
+                                   "periods": 400}).group("orbit")
     assert (orbit.attrs["period"], orbit.attrs["name"]) == (0, "chaotic")
     assert orbit.attrs["lyapunov"] > 5 * orbit.attrs["lyapunov_error"] > 0
     assert abs(orbit.attrs["lyapunov"] - listed["lyapunov"].values[0]) < 6 * orbit.attrs["lyapunov_error"]
@@ -79,12 +82,14 @@ def test_exponents_are_told_in_time_of_the_scene(kapitza, tmp_path, keys, unit, 
 
 
 def test_lines_of_chaos_are_those_of_the_velocity(model):
-    """Its angle drifts by many turns, whose spectrum hides everything else; against numpy's transform through the same window."""
+    """Its angle drifts by many turns, whose spectrum hides everything else; against numpy's transform through the same
+    window."""
     orbit = model({"k": 0.25, "damping": 0.05, "m": 0.5},
                   orbit={"start": {"theta": 1, "velocity": 0.2}, "transient": 1000, "periods": 100}).group("orbit")
     assert (orbit.attrs["line_quantity"], orbit["line_amplitude"].attrs["units"]) == ("velocity", "1")
     samples = round(2 * pi / orbit["time"].values[1])
-    assert [0.5 * cos(orbit["time"].values[i]) for i in range(samples)] == list(orbit["pivot"].values[:samples])  # as in 0.2.0
+    # As in 0.2.0
+    assert [0.5 * cos(orbit["time"].values[i]) for i in range(samples)] == list(orbit["pivot"].values[:samples])
     velocity = orbit["velocity"].values[:-1]
     from scipy import signal  # which takes a second to load
 
@@ -116,7 +121,8 @@ def test_a_decay_is_named_with_what_it_decays_to(kapitza, tmp_path, end):
 
 
 def test_leaving_an_unstable_position_is_no_chaos(model):
-    """From 6e-10 rad beside the unstable top neighbours part all through the record, which still is a fall to the bottom."""
+    """From 6e-10 rad beside the unstable top neighbours part all through the record, which still is a fall to the
+    bottom."""
     orbit = model({**BLACKBURN, "drive_amplitude": 0.1},
                   orbit={"start": {"theta": 3.141592653, "velocity": 0}, "periods": 60}).group("orbit")
     assert orbit.attrs["period"] == 0 and orbit.attrs["lyapunov"] > 5 * orbit.attrs["lyapunov_error"]
@@ -124,7 +130,8 @@ def test_leaving_an_unstable_position_is_no_chaos(model):
 
 
 def test_effective_model_follows_the_mean(model):
-    """The slow equation near the top of the well: close to the mean of the full motion, to the order of the fast swing."""
+    """The slow equation near the top of the well: close to the mean of the full motion, to the order of the fast
+    swing."""
     pendulum = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.2}
     start = {"theta": pi - 0.1, "velocity": 0}
     full, slow = (model(pendulum, orbit={"start": start, "periods": 40, "model": name}).group("orbit")
@@ -155,7 +162,8 @@ def test_resolved_scene_gives_the_same(kapitza, tmp_path, name):
 REFUSED = {
     "no start": ({}, "orbit.start: is missing"),
     "start and attractor": ({**START, "attractor": 0}, "orbit.start: contradicts attractor"),
-    "open attractor": ({"attractor": 0, "closed": False}, "orbit.closed: contradicts attractor", {"attractors": WINDOW}),
+    "open attractor": ({"attractor": 0, "closed": False}, "orbit.closed: contradicts attractor",
+                       {"attractors": WINDOW}),
     "no catalogue": ({"attractor": 0}, "orbit.attractor: needs a list of attractors"),
     "about the pendulum": ({**START, "about": "down"}, "orbit.about"),
     "closed slow motion": ({**START, "model": "effective", "closed": True}, "orbit.closed"),
@@ -164,7 +172,8 @@ REFUSED = {
     "half a start": ({"start": {"theta": 0}}, "orbit.start.velocity: is missing"),
     "no samples": ({**START, "samples_per_period": 0}, "orbit.samples_per_period"),
     "too fast": ({"start": {"theta": 0, "velocity": 1e6}}, "orbit: needs"),
-    "no fast drive": ({**START, "model": "effective"}, "orbit.model: effective", {"pendulum": {"k": 2, "damping": 0, "m": 0.3}}),
+    "no fast drive": ({**START, "model": "effective"}, "orbit.model: effective",
+                      {"pendulum": {"k": 2, "damping": 0, "m": 0.3}}),
 }
 
 
@@ -177,7 +186,8 @@ def test_contradictions_are_refused(kapitza, tmp_path, name):
 
 @pytest.mark.parametrize(("transient", "limit"), with_extensive([(8000, "0.001")], [(500000, "0.05")]))
 def test_a_long_transient_stops_and_goes_on(kapitza, tmp_path, transient, limit):
-    """Stopped by the clock before its transient, or after the first stretch of it; resumed on two ranks: the same motion."""
+    """Stopped by the clock before its transient, or after the first stretch of it; resumed on two ranks: the same
+    motion."""
     orbit = {"start": {"theta": 1, "velocity": 0.2}, "transient": transient, "periods": 5}
     (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": {"k": 0.25, "damping": 0, "m": 0.5}, "orbit": orbit}))
     kapitza("run", "s.yaml", "-o", "whole.h5", folder=tmp_path)
@@ -187,13 +197,15 @@ def test_a_long_transient_stops_and_goes_on(kapitza, tmp_path, transient, limit)
     assert datasets(tmp_path / "whole.h5") == datasets(tmp_path / "parts.h5")
 
 
-@pytest.mark.parametrize("k, m, velocity", with_extensive([(0.01, 0.3, 20)], [(0.01, 0.3, 100), (0, 100, 1), (100, 0.3, 1)]))
+@pytest.mark.parametrize("k, m, velocity",
+                         with_extensive([(0.01, 0.3, 20)], [(0.01, 0.3, 100), (0, 100, 1), (100, 0.3, 1)]))
 def test_fast_motion_gets_the_steps_it_needs(model, k, m, velocity):
     """One period against thirty steps a radian."""
     pendulum = {"k": k, "damping": 0, "m": m}  # nothing to settle on
     orbit = {"start": {"theta": 0.3, "velocity": velocity}, "periods": 1}
     fine = {"scheme": "split6", "steps_per_period": int(30 * (2 + velocity + 2 * sqrt(k + m)))}
-    ours, reference = model(pendulum, orbit=orbit).group("orbit"), model(pendulum, orbit=orbit, numerics=fine).group("orbit")
+    ours, reference = model(pendulum, orbit=orbit).group("orbit"), model(pendulum, orbit=orbit,
+                                                                         numerics=fine).group("orbit")
     assert abs(ours["strobe_theta"].values[1] - reference["strobe_theta"].values[1]) < 2e-9
     assert abs(ours["strobe_velocity"].values[1] - reference["strobe_velocity"].values[1]) < 2e-9
 
@@ -217,7 +229,8 @@ def test_a_scene_that_cannot_be_modelled_is_refused(kapitza, tmp_path, name):
 
 @pytest.mark.parametrize("ranks", [None, 2])
 def test_an_attractor_that_is_not_there_is_refused(kapitza, tmp_path, ranks):
-    scene = {"pendulum": {"k": 0.1, "damping": 0.3, "m": 0}, "attractors": {**WINDOW, "starts": 16}, "orbit": {"attractor": 7}}
+    scene = {"pendulum": {"k": 0.1, "damping": 0.3, "m": 0}, "attractors": {**WINDOW, "starts": 16},
+             "orbit": {"attractor": 7}}
     (tmp_path / "s.yaml").write_text(json.dumps(scene))
     line = kapitza("run", "s.yaml", folder=tmp_path, ranks=ranks, status=2).stderr
     place = f"s.yaml:1:{json.dumps(scene).index('7}') + 1}"

@@ -43,7 +43,8 @@ def test_nodding_cycle_from_a_start_nearby(model, key):
     assert abs(complex(orbit.attrs["multiplier_re"], orbit.attrs["multiplier_im"]) - multiplier(cycle)) < 1e-7
     assert abs(orbit.attrs["lyapunov"] - log(abs(multiplier(cycle))) / cycle["n"]) < 1e-7
     strobes = zip(orbit["strobe_theta"].values, orbit["strobe_velocity"].values, strict=True)
-    for (found_theta, found_velocity), (wanted_theta, wanted_velocity) in zip(strobes, cycle["strobe_theta_v_at_t0"], strict=False):
+    for (found_theta, found_velocity), (wanted_theta, wanted_velocity) in zip(strobes, cycle["strobe_theta_v_at_t0"],
+                                                                              strict=False):
         assert near(found_theta, float(wanted_theta)) < 1e-9
         assert abs(found_velocity - float(wanted_velocity)) < 1e-9
     for line, amplitude in cycle["spectrum_amplitudes"].items():
@@ -63,7 +64,8 @@ def test_nodding_detected_from_satellites(model):
 
 
 def test_fig8_turning_points(model):
-    """BSG Fig. 8: releases at epsilon = 0.5. The reference was read off samples, which miss up to 2e-3 degrees of a maximum."""
+    """BSG Fig. 8: releases at epsilon = 0.5. The reference was read off samples, which miss up to 2e-3 degrees of a
+    maximum."""
     table = REFERENCE["blackburn_fig8_turning_points_deg_Q5_Omega11_eps0.5"]
     pendulum = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.5}
     for release in ("5", "10", "30"):
@@ -78,7 +80,8 @@ def test_flutter_amplitude(model):
     """BSG Fig. 9: the largest deflection of the flutter cycle, to 1e-8."""
     for row in REFERENCE["blackburn_fig9_10_flutter_Q5_Omega11"][::1 if EXTENSIVE else 5]:
         pendulum = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": float(row["eps"])}
-        orbit = model(pendulum, orbit=closed(pi + float(row["phi_strobe"]), float(row["dphi_strobe"]), period=2)).group("orbit")
+        orbit = model(pendulum, orbit=closed(pi + float(row["phi_strobe"]), float(row["dphi_strobe"]),
+                                             period=2)).group("orbit")
         assert orbit.attrs["name"] == "flutter" and orbit.attrs["symmetric"] == 1
         assert abs(np.abs(orbit["maximum_angle"].values).max() - float(row["amp_rad"])) < 1e-8
 
@@ -160,7 +163,8 @@ def test_butikov_fig12(drawn):
 def test_every_search_finds_small_basins(model, epsilon):
     """Attractors that own 0.1 % of the window are in the catalogue of any seed; KAPITZA_EXTENSIVE=1 tries a hundred."""
     pendulum = {**BLACKBURN, "drive_amplitude": float(epsilon)}
-    grid = {"theta": {"count": 200}, "velocity": {**WINDOW["velocity"], "count": 200}, "icm": {"theta": 400, "velocity": 400}}
+    grid = {"theta": {"count": 200}, "velocity": {**WINDOW["velocity"], "count": 200},
+            "icm": {"theta": 400, "velocity": 400}}
     owners = model(pendulum, basin=grid).group("attractors")
     large = np.flatnonzero(owners["fraction"].values >= 1e-3)
     assert len(large) >= 4

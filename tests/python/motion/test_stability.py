@@ -68,7 +68,8 @@ def test_a_damped_tongue_is_drawn_around_its_turn(kapitza, tmp_path, last_k, par
 
 
 def test_a_chart_needs_no_pendulum(kapitza, tmp_path):
-    """The study has its own k, m and damping: the same chart without the mapping, from the resolved scene too, and a picture."""
+    """The study has its own k, m and damping: the same chart without the mapping, from the resolved scene too, and a
+    picture."""
     alone = CHART.removeprefix(PENDULUM)
     with run(kapitza, tmp_path, CHART) as file:
         one = file["stability/log_multiplier"][:]
@@ -101,7 +102,8 @@ stability:
 
 
 def test_zones_of_any_wave_form_lie_between_its_curves(kapitza, tmp_path):
-    """A wave form that is even neither in time nor in m: stable between curves 1 and 2, 3 and 4, above 5, on both sides of the axis."""
+    """A wave form that is even neither in time nor in m: stable between curves 1 and 2, 3 and 4, above 5, on both sides
+    of the axis."""
     with run(kapitza, tmp_path, SQUARE) as file:
         chart = {name: item[:] for name, item in file["stability"].items()}
         assert file["stability"].attrs["odd_harmonics"] == 0
@@ -118,21 +120,24 @@ def test_rest_of_a_square_wave_agrees_with_its_chart(kapitza, tmp_path):
     pendulum = "pendulum: {k: 0.01, damping: 0, m: 0.3, waveform: square}\n"
     (tmp_path / "rest.yaml").write_text(pendulum + "attractors: {velocity: {min: -1, max: 1}}\n")
     said = kapitza("check", "rest.yaml", folder=tmp_path).stdout
-    low, high = (float(word) for word in re.search(r"Rest upside down: stable \(for m from (\S+) to ([0-9.]+)\)", said).groups())
+    low, high = (float(word) for word in re.search(r"Rest upside down: stable \(for m from (\S+) to ([0-9.]+)\)",
+                                                   said).groups())
     with run(kapitza, tmp_path, f"{pendulum}stability:\n  k: {{min: -0.01, max: 0, count: 2}}\n"
              f"  m: {{min: {low}, max: {high}, count: 2}}\n  curves: [hill_1, hill_2]\n") as file:
         edges = file["stability/hill_1"][0], file["stability/hill_2"][1]
     assert edges == pytest.approx((-0.01, -0.01), abs=1e-4)
 
 
-TRAP = "stability: {a: {min: -0.5, max: 0.5, count: 41}, q: {min: 0, max: 1.2, count: 31}, curves: [exact_2, hill_1, hill_2]}\n"
+TRAP = ("stability: {a: {min: -0.5, max: 0.5, count: 41}, q: {min: 0, max: 1.2, count: 31}, curves: [exact_2, hill_1, "
+        "hill_2]}\n")
 
 
 def test_words_of_ion_traps_give_the_same_numbers(kapitza, tmp_path):
     with run(kapitza, tmp_path, TRAP) as file:
         trap, resolved = {name: item[:] for name, item in file["stability"].items()}, file.attrs["scene_resolved"]
     assert (trap["a"] == 4 * trap["k"]).all() and (trap["q"] == 2 * trap["m"]).all()
-    plain = "stability: {k: {min: -0.125, max: 0.125, count: 41}, m: {min: 0, max: 0.6, count: 31}, curves: [exact_2, hill_1, hill_2]}\n"
+    plain = ("stability: {k: {min: -0.125, max: 0.125, count: 41}, m: {min: 0, max: 0.6, count: 31}, curves: "
+             "[exact_2, hill_1, hill_2]}\n")
     for scene in (plain, resolved):
         with run(kapitza, tmp_path, scene) as file:
             assert ("a" in file["stability"]) == (scene == resolved)
@@ -143,11 +148,13 @@ def test_words_of_ion_traps_give_the_same_numbers(kapitza, tmp_path):
                                          (SQUARE.replace("hill_5]", "hill_5, meissner_1, meissner_3]"), "zones")])
 def test_charts_of_other_words_and_wave_forms_draw(kapitza, tmp_path, scene, view):
     run(kapitza, tmp_path, scene).close()
-    assert plot("stability", tmp_path / "chart.h5", "-o", tmp_path / "chart.png", "--view", view, "--dpi", "60").returncode == 0
+    assert plot("stability", tmp_path / "chart.h5", "-o", tmp_path / "chart.png", "--view", view, "--dpi",
+                "60").returncode == 0
     assert image.imread(tmp_path / "chart.png")[..., :3].std() > 0.05
 
 
-@pytest.mark.parametrize("scene, word", [(SQUARE, "axes a and q"), (TRAP.replace("-0.5", "-0.4"), "as many values of a")])
+@pytest.mark.parametrize("scene, word",
+                         [(SQUARE, "axes a and q"), (TRAP.replace("-0.5", "-0.4"), "as many values of a")])
 def test_trap_needs_both_directions(kapitza, tmp_path, scene, word):
     run(kapitza, tmp_path, scene).close()
     done = plot("stability", tmp_path / "chart.h5", "--view", "trap", "-o", tmp_path / "chart.png")
@@ -155,7 +162,8 @@ def test_trap_needs_both_directions(kapitza, tmp_path, scene, word):
 
 
 def test_potential(kapitza, tmp_path):
-    with run(kapitza, tmp_path, PENDULUM + "potential: {drive_amplitudes: [0.05, 0.2, 0.3], theta: {count: 201}}\n") as file:
+    with run(kapitza, tmp_path,
+             PENDULUM + "potential: {drive_amplitudes: [0.05, 0.2, 0.3], theta: {count: 201}}\n") as file:
         group = {name: item[:] for name, item in file["potential"].items()}
     theta, exact = group["theta"], group["energy"]
     assert exact.shape == (3, 201) and (theta[0], theta[100], theta[-1]) == (-np.pi, 0, np.pi)
@@ -165,11 +173,13 @@ def test_potential(kapitza, tmp_path):
     for row in (1, 2):
         half = theta >= 0
         assert theta[half][exact[row][half].argmax()] == pytest.approx(group["rim_exact"][row], abs=0.02)
-    assert np.abs(group["energy_simple"] - exact).max() < 2e-3 and np.abs(group["energy_blackburn"] - exact).max() < 2e-3
+    assert np.abs(group["energy_simple"] - exact).max() < 2e-3 and np.abs(group["energy_blackburn"]
+                                                                          - exact).max() < 2e-3
 
 
 VIEWS = {
-    "zones": "  curves: [exact_1, exact_2, exact_3, damped_1, butikov_3]\n  subharmonics: [2, 4]\n  quality_factor: 5\n",
+    "zones": "  curves: [exact_1, exact_2, exact_3, damped_1, butikov_3]\n  subharmonics: [2, 4]\n  quality_factor: "
+             "5\n",
     "growth": "  curves: [exact_5]\n",
     "frequency": "  curves: [damped_0, damped_1, blackburn_lower]\n  damping: 0.01\n",
     "errors": "  curves: [exact_4, butikov_4, butikov_4_refined]\n  subharmonics: [3]\n",
@@ -183,7 +193,8 @@ def test_every_view_draws(kapitza, tmp_path, view):
         chart = chart.replace("min: -1, max: 4, count: 101", "min: -0.25, max: 0.25, count: 4001")
         chart = chart.replace("max: 4, count: 81", "max: 0.6, count: 40")
     run(kapitza, tmp_path, chart + VIEWS[view]).close()
-    assert plot("stability", tmp_path / "chart.h5", "-o", tmp_path / "chart.png", "--view", view, "--dpi", "60").returncode == 0
+    assert plot("stability", tmp_path / "chart.h5", "-o", tmp_path / "chart.png", "--view", view, "--dpi",
+                "60").returncode == 0
     assert image.imread(tmp_path / "chart.png")[..., :3].std() > 0.05
 
 
@@ -201,8 +212,8 @@ def test_potential_draws(kapitza, tmp_path):
 
 @pytest.mark.extensive
 def test_benchmark_measures_speed_and_error(kapitza):
-    script = [sys.executable, ROOT / "benchmarks" / "benchmark_stability.py", "--json", "--count", "60", "--points", "6", "--exact", "6",
-              "--rounds", "1"]
+    script = [sys.executable, ROOT / "benchmarks" / "benchmark_stability.py", "--json", "--count", "60", "--points",
+              "6", "--exact", "6", "--rounds", "1"]
     figures = json.loads(subprocess.run(script, check=True, capture_output=True, text=True).stdout)
     assert figures["largest_error"] < 1e-12 and figures["scipy_largest_error"] < 1e-8
     assert figures["points"] == 3600

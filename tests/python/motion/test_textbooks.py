@@ -1,4 +1,5 @@
-"""Torques in the words of textbooks and of junctions; every number that scenes/textbooks and docs/howto/textbooks.md say a book prints."""
+"""Torques in the words of textbooks and of junctions; every number that scenes/textbooks and docs/howto/textbooks.md
+say a book prints."""
 
 import json
 import math
@@ -61,10 +62,12 @@ def test_all_words_give_one_pendulum(kapitza, tmp_path, way):
 
 @pytest.mark.parametrize(
     ("parameter", "pendulum", "low", "high"),
-    [("drive_frequency", OWN | {"gamma": 0.5}, 0.8, 1.4), ("pivot_frequency", SI | {"oscillating_torque": 0.5 * MOMENT}, 3, 6)],
+    [("drive_frequency", OWN | {"gamma": 0.5}, 0.8, 1.4), ("pivot_frequency", SI | {"oscillating_torque": 0.5 * MOMENT},
+                                                           3, 6)],
 )
 def test_a_torque_stays_the_same_in_a_sweep_of_the_frequency(kapitza, tmp_path, parameter, pendulum, low, high):
-    """At both ends of the sweep the cycle is that of the torque 0.5 M g r; in units of I omega^2 it has become smaller."""
+    """At both ends of the sweep the cycle is that of the torque 0.5 M g r; in units of I omega^2 it has become
+    smaller."""
     sweep = {"parameter": parameter, "min": low, "max": high, "count": 2, "measure": ["attractors"], **WINDOW}
     swept, _ = run_scene(kapitza, tmp_path, {"pendulum": pendulum, "sweep": sweep}, name="swept")
     with h5py.File(swept.path) as file:
@@ -74,27 +77,35 @@ def test_a_torque_stays_the_same_in_a_sweep_of_the_frequency(kapitza, tmp_path, 
     for value, cycle in zip((low, high), cycles, strict=True):
         k = GRAVITY / LENGTH / value**2 if parameter == "pivot_frequency" else 1 / value**2
         alone = {"k": k, "damping": math.sqrt(k) / 4, "m": 0, "torque_amplitude": 0.5 * k}
-        rows = run_scene(kapitza, tmp_path, {"pendulum": alone, "attractors": WINDOW}, name="alone")[0].group("attractors")
+        rows = run_scene(kapitza, tmp_path, {"pendulum": alone, "attractors": WINDOW},
+                         name="alone")[0].group("attractors")
         strobe = np.array([rows["strobe_theta"].values[0, 0], rows["strobe_velocity"].values[0, 0]])
         assert np.nanmin(np.abs(cycle - strobe).sum(axis=-1)) < 1e-9
 
 
 @pytest.mark.parametrize("count", [7, 13])
 def test_miles_loses_symmetry_where_he_says(kapitza, tmp_path, count):
-    """delta = 1/8, epsilon = 1/2: at the frequency .595017791, in one sweep with values close to it. Both twins go there in one piece."""
-    sweep = {"parameter": "drive_frequency", "min": 0.58, "max": 0.61, "count": count, "measure": ["attractors"], **WINDOW}
-    result, _ = run_scene(kapitza, tmp_path, {"pendulum": OWN | {"quality_factor": 4, "drive_frequency": 1, "gamma": 0.5}, "sweep": sweep})
+    """delta = 1/8, epsilon = 1/2: at the frequency .595017791, in one sweep with values close to it. Both twins go
+    there in one piece."""
+    sweep = {"parameter": "drive_frequency", "min": 0.58, "max": 0.61, "count": count, "measure": ["attractors"],
+             **WINDOW}
+    result, _ = run_scene(kapitza, tmp_path,
+                          {"pendulum": OWN | {"quality_factor": 4, "drive_frequency": 1, "gamma": 0.5}, "sweep": sweep})
     with h5py.File(result.path) as file:
         names = ("stable", "symmetric", "mirror", "start", "end")
-        rows = [row for row in zip(*(file[f"sweep/branch_{name}"][:].tolist() for name in names), strict=True) if row[0]]
+        rows = [row for row in zip(*(file[f"sweep/branch_{name}"][:].tolist() for name in names), strict=True)
+                if row[0]]
     breaking = pytest.approx(0.595017791, abs=5e-10)
-    assert rows == [(1, 1, 0, 0.58, 0.61), (1, 0, 2, 0.58, breaking), (1, 0, 1, 0.58, breaking), (1, 1, 3, breaking, 0.61)]
+    assert rows == [(1, 1, 0, 0.58, 0.61), (1, 0, 2, 0.58, breaking), (1, 0, 1, 0.58, breaking),
+                    (1, 1, 3, breaking, 0.61)]
 
 
-@pytest.mark.parametrize(("word", "meant"), [("F_D", "torque_ratio"), ("current", "i_dc"), ("omega_D", "drive_frequency")])
+@pytest.mark.parametrize(("word", "meant"),
+                         [("F_D", "torque_ratio"), ("current", "i_dc"), ("omega_D", "drive_frequency")])
 def test_words_of_books_are_answered_by_the_key(kapitza, tmp_path, word, meant):
     (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": OWN | {word: 1}, "attractors": WINDOW}))
-    assert f"pendulum.{word}: unknown key; the program calls it {meant}" in kapitza("run", "s.yaml", folder=tmp_path, status=2).stderr
+    assert f"pendulum.{word}: unknown key; the program calls it {meant}" in kapitza("run", "s.yaml", folder=tmp_path,
+                                                                                    status=2).stderr
 
 
 @pytest.mark.parametrize(
@@ -103,7 +114,8 @@ def test_words_of_books_are_answered_by_the_key(kapitza, tmp_path, word, meant):
         (OWN | {"torque": 1, "constant_torque_ratio": 1}, "pendulum.constant_torque_ratio: contradicts torque"),
         (WAYS["junction"] | {"torque_ratio": 1}, "pendulum.i_ac: contradicts torque_ratio"),
         (WAYS["junction"] | {"k": 1}, "pendulum.k: contradicts pendulum.beta_c"),
-        ({name: value for name, value in WAYS["N m"].items() if name != "mass"}, "lacks: mass (beside friction or a torque)"),
+        ({name: value for name, value in WAYS["N m"].items() if name != "mass"},
+         "lacks: mass (beside friction or a torque)"),
     ],
 )
 def test_two_words_for_one_torque_are_refused(kapitza, tmp_path, pendulum, named):
@@ -119,7 +131,8 @@ def test_taylor(kapitza, tmp_path):
         ends = file["sweep/branch_name"].asstr()[:]
     doublings = [branch["end"][(branch["period"] == n) & (branch["stable"] == 1)] for n in (1, 2, 4, 8)]
     assert len(ends) and [round(float(values.max()), 4) for values in doublings] == [1.0664, 1.0793, 1.0821, 1.0827]
-    assert np.allclose([values.max() for values in doublings], [1.0663729, 1.0793139, 1.0820844, 1.0826783], rtol=0, atol=6e-8)
+    assert np.allclose([values.max() for values in doublings], [1.0663729, 1.0793139, 1.0820844, 1.0826783], rtol=0,
+                       atol=6e-8)
 
 
 @pytest.mark.parametrize(
@@ -144,7 +157,8 @@ def test_hubbard(kapitza, tmp_path):
     scene = scene_of("hubbard")
     scene["basin"] |= {"theta": {"count": 32}, "velocity": {"min": -3, "max": 5, "count": 32}}
     result, _ = run_scene(kapitza, tmp_path, scene)
-    assert result.group("attractors")["period"].values.tolist() == [1] and np.all(result.group("basin")["attractor"].values == 0)
+    assert result.group("attractors")["period"].values.tolist() == [1]
+    assert np.all(result.group("basin")["attractor"].values == 0)
 
 
 def turns_of(scene, theta, velocity, **keys):
@@ -170,7 +184,8 @@ def turned(theta, velocity, phase=0.0, periods=60, steps=400):
 
 
 def test_the_lakes_of_hubbard(kapitza, tmp_path):
-    """Net turns of the article's starts; of a start of many digits, of one given a turn farther; of cells of any depth as of starts."""
+    """Net turns of the article's starts; of a start of many digits, of one given a turn farther; of cells of any depth
+    as of starts."""
     scene = scene_of("hubbard")
     assert turns_of(scene, 0, [1.85, 1.9, 2, -2, 0]).tolist() == [0, 1, 3, -2, 0]
     assert turns_of(scene, ["6.283185307179586476925286766559", "2 pi"], [2, 2]).tolist() == [3, 3]
@@ -188,7 +203,8 @@ def test_the_lakes_of_hubbard(kapitza, tmp_path):
             ]
         angles, speeds = (values.ravel() for values in np.meshgrid(*starts))
         decided = basin["evidence"].values.ravel() != UNDECIDED
-        assert np.array_equal(turns_of(scene_of("hubbard"), angles, speeds)[decided], basin["turns"].values.ravel()[decided])
+        assert np.array_equal(turns_of(scene_of("hubbard"), angles, speeds)[decided],
+                              basin["turns"].values.ravel()[decided])
         assert np.mean(decided) > 0.9
 
 
@@ -197,7 +213,8 @@ def test_every_method_counts_turns(kapitza, tmp_path, method):
     """Mirrored starts turn the other way; ends that rotate have no number."""
     scene = yaml.safe_load((ROOT / "scenes" / "blackburn-fig12.yaml").read_text())
     scene["basin"] |= {"theta": {"count": 60}, "velocity": {"min": -2, "max": 2, "count": 60}, "turns": True}
-    exact, other = (run_scene(kapitza, tmp_path, scene, "--set", f"basin.method={word}", name=word)[0] for word in ("exact", method))
+    exact, other = (run_scene(kapitza, tmp_path, scene, "--set", f"basin.method={word}", name=word)[0]
+                    for word in ("exact", method))
     basin, same = exact.group("basin"), other.group("basin")
     turns = basin["turns"].values
     agree = same["attractor"].values == basin["attractor"].values
@@ -223,7 +240,8 @@ def test_basin_stability_of_the_running_state(kapitza, tmp_path):
     """bSTAB and pyBasin: .848 +- .0036 from 10,000 random starts; 1600 cells differ by three times as much at most."""
     result, _ = run_scene(kapitza, tmp_path, scene_of("running-state"))
     rows = result.group("attractors")
-    assert rows["name"].values.tolist() == ["down", "running +"] and (result.group("basin")["evidence"].values < 3).all()
+    assert rows["name"].values.tolist() == ["down", "running +"] and (result.group("basin")["evidence"].values
+                                                                      < 3).all()
     assert rows["fraction"].values == pytest.approx([0.152, 0.848], abs=0.0108)
     assert rows["mean_velocity"].values == pytest.approx([0, 4.99599559], abs=1e-7)
     assert np.abs(rows["lyapunov"].values[1]) <= rows["lyapunov_error"].values[1] < 1e-6
@@ -232,7 +250,8 @@ def test_basin_stability_of_the_running_state(kapitza, tmp_path):
 def test_the_running_state_is_born_on_the_homoclinic_orbit(kapitza, tmp_path):
     sweep = {"parameter": "torque", "min": 0.1, "max": 0.2, "count": 3, "measure": ["attractors"], "starts": 64}
     pendulum = scene_of("running-state")["pendulum"]
-    result, said = run_scene(kapitza, tmp_path, {"pendulum": pendulum, "sweep": sweep | {"velocity": {"min": 0, "max": 4}}})
+    result, said = run_scene(kapitza, tmp_path,
+                             {"pendulum": pendulum, "sweep": sweep | {"velocity": {"min": 0, "max": 4}}})
     with h5py.File(result.path) as file:
         row = file["sweep/branch_name"].asstr()[:].tolist().index("running +")
         assert abs(file["sweep/branch_start"][row] - 0.127008860) < 1e-9 and file["sweep/branch_start_kind"][row] == 6
@@ -242,7 +261,8 @@ def test_the_running_state_is_born_on_the_homoclinic_orbit(kapitza, tmp_path):
 
 def test_a_sweep_says_what_ends_on_nothing_known(kapitza, tmp_path):
     """The rotations of two periods are longer than the search looks for."""
-    sweep = {"parameter": "torque_ratio", "min": 1.449, "max": 1.45, "count": 2, "measure": ["attractors"], "starts": 32, "max_period": 1}
+    sweep = {"parameter": "torque_ratio", "min": 1.449, "max": 1.45, "count": 2, "measure": ["attractors"],
+             "starts": 32, "max_period": 1}
     result, said = run_scene(kapitza, tmp_path, {"pendulum": scene_of("baker-gollub")["pendulum"], "sweep": sweep})
     with h5py.File(result.path) as file:
         assert (file["sweep/fraction_unsettled"][:] == 1).all()
@@ -251,7 +271,8 @@ def test_a_sweep_says_what_ends_on_nothing_known(kapitza, tmp_path):
 
 def test_landau_and_lifshitz(kapitza):
     assert math.isclose(
-        limit_of_rest(kapitza, "landau-lifshitz", "upside down: stable .for drive_amplitude from"), math.sqrt(2) / 100, rel_tol=1e-3
+        limit_of_rest(kapitza, "landau-lifshitz", "upside down: stable .for drive_amplitude from"), math.sqrt(2) / 100,
+        rel_tol=1e-3
     )
 
 
@@ -266,11 +287,13 @@ def test_butikov(kapitza):
 
 
 def test_mccumber_and_stewart(kapitza, tmp_path):
-    """On a step the mean velocity is whole, and the currents of step 1 lie about the Ohmic line i = omega / sqrt(beta_c)."""
+    """On a step the mean velocity is whole, and the currents of step 1 lie about the Ohmic line i = omega /
+    sqrt(beta_c)."""
     result, _ = run_scene(kapitza, tmp_path, scene_of("mccumber-stewart"))
     with h5py.File(result.path) as file:
         group = file["line"]
         velocity, current = group["mean_velocity"][:], group["value"][:]
-    velocity = velocity.reshape(len(current), -1) if velocity.shape[0] == len(current) else velocity.reshape(-1, len(current)).T
+    velocity = velocity.reshape(len(current),
+                                -1) if velocity.shape[0] == len(current) else velocity.reshape(-1, len(current)).T
     steps = {n: current[np.any(velocity == n, axis=1)] for n in (0, 1)}
     assert steps[0].min() == 0 and steps[1].size >= 2 and abs(steps[1].mean() - 1.5) <= 0.25

@@ -1,4 +1,5 @@
-"""libkapitza.so, as others link it: its names, its header, the examples of docs/howto/library.md against the installed one."""
+"""libkapitza.so, as others link it: its names, its header, the examples of docs/howto/library.md against the installed
+one."""
 
 import re
 import shutil
@@ -39,7 +40,8 @@ def test_the_c_example_links_by_pkg_config(installed, tmp_path):
     (tmp_path / "example.c").write_text(example("c"))
     assert len(example("c").splitlines()) <= 30
     package = next(installed.rglob("kapitza.pc")).parent
-    flags = done("pkg-config", "--cflags", "--libs", "kapitza", env={"PKG_CONFIG_PATH": str(package), "PATH": "/usr/bin:/bin"}).split()
+    flags = done("pkg-config", "--cflags", "--libs", "kapitza",
+                 env={"PKG_CONFIG_PATH": str(package), "PATH": "/usr/bin:/bin"}).split()
     path = f"-Wl,-rpath,{next(installed.rglob('libkapitza.so')).parent}"
     done("cc", "-std=c11", "-Wall", "-Wextra", "-Werror", "example.c", *flags, path, "-o", "example", cwd=tmp_path)
     assert done(tmp_path / "example").splitlines() == ["3 0: inverted", "3.1 0.2: inverted"]
@@ -48,15 +50,18 @@ def test_the_c_example_links_by_pkg_config(installed, tmp_path):
 def test_the_fortran_example_links(installed, tmp_path):
     (tmp_path / "example.f90").write_text(example("fortran"))
     folder = next(installed.rglob("libkapitza.so")).parent
-    done("gfortran", "-Wall", "example.f90", f"-L{folder}", "-lkapitza", f"-Wl,-rpath,{folder}", "-o", "example", cwd=tmp_path)
+    done("gfortran", "-Wall", "example.f90", f"-L{folder}", "-lkapitza", f"-Wl,-rpath,{folder}", "-o", "example",
+         cwd=tmp_path)
     rows = done(tmp_path / "example").split()
     assert len(rows) == 4 and all(abs(float(number)) < 3.2 for number in rows)
 
 
 def test_the_c_example_links_by_cmake(installed, tmp_path):
     (tmp_path / "example.c").write_text(example("c"))
-    (tmp_path / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.24)\nproject(example C)\nfind_package(kapitza REQUIRED)\n"
-                                             "add_executable(example example.c)\ntarget_link_libraries(example kapitza::kapitza)\n")
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.24)\nproject(example C)\nfind_package(kapitza REQUIRED)\n"
+                                             "add_executable(example example.c)\ntarget_link_libraries(example "
+                                             "kapitza::kapitza)\n")
     done("cmake", "-G", "Ninja", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={installed}")
     done("cmake", "--build", tmp_path / "build")
     assert "inverted" in done(tmp_path / "build" / "example")
@@ -65,7 +70,8 @@ def test_the_c_example_links_by_cmake(installed, tmp_path):
 @pytest.mark.skipif(not shutil.which("c++"), reason="no C++ compiler")
 def test_the_header_is_c_plus_plus_too(tmp_path):
     (tmp_path / "example.cc").write_text("#include <kapitza.h>\nint main() { return kapitza_version()[0] != '0'; }\n")
-    done("c++", "-Wall", "-Werror", "example.cc", f"-I{ROOT / 'include'}", LIBRARY, f"-Wl,-rpath,{LIBRARY.parent}", "-o", "x", cwd=tmp_path)
+    done("c++", "-Wall", "-Werror", "example.cc", f"-I{ROOT / 'include'}", LIBRARY, f"-Wl,-rpath,{LIBRARY.parent}",
+         "-o", "x", cwd=tmp_path)
     done(tmp_path / "x")
 
 

@@ -24,10 +24,12 @@ def test_a_part_has_cells_of_the_frame(live):
     frame(live, moving=True)  # finds what there is: ids do not change between parts
     done, parts = frame(live, moving=True, coarseness=[8, 4, 2, 1])
     whole = parts[-1][1]["labels"]
-    assert done and [header["final"] for header, _ in parts] == [False, False, False, True] and whole.shape == (110, 150)
+    assert done and [header["final"] for header, _ in parts] == [False, False, False,
+                                                                 True] and whole.shape == (110, 150)
     for header, planes in parts:
         step = header["level"]
-        rows, columns = (np.minimum(step * np.arange(-(-count // step)) + OFFSET[step], count - 1) for count in whole.shape)
+        rows, columns = (np.minimum(step * np.arange(-(-count // step)) + OFFSET[step], count - 1)
+                         for count in whole.shape)
         assert np.array_equal(planes["labels"], whole[np.ix_(rows, columns)])
 
 
@@ -41,14 +43,16 @@ def test_answers_within_a_frame_leave_it_as_it_is(live):
         return True
 
     done, [(_, after)] = frame(live, ask, planes=("labels", "settling_time"))
-    assert done and found and all(answer == alone for answer in found) and np.array_equal(before["labels"], after["labels"])
+    assert done and found and all(answer == alone for answer in found) and np.array_equal(before["labels"],
+                                                                                          after["labels"])
 
 
 def test_a_frame_that_is_stopped_keeps_what_was_found(live):
     version, asked = live.catalogue()["version"], []
     for parts, stop in ((0, lambda: False), (1, lambda: not asked)):
         asked.clear()
-        done = live.frame(lambda part: asked.append(part) or True, stop, changed=change(basin=WINDOW), coarseness=[8, 1])
+        done = live.frame(lambda part: asked.append(part) or True, stop, changed=change(basin=WINDOW),
+                          coarseness=[8, 1])
         assert not done and len(asked) == parts
     assert live.catalogue()["version"] == version
 
@@ -61,7 +65,8 @@ def test_what_a_callback_raises_is_raised(live):
 
 @pytest.mark.parametrize(("keys", "words"), [
     ({"coarseness": [1, 8]}, "falling order"), ({"coarseness": []}, "n_parts"),
-    ({"changed": "basin: {theta: {count: 8192}, velocity: {min: -1, max: 1, count: 8192}}"}, "more than 16777216 cells"),
+    ({"changed": "basin: {theta: {count: 8192}, velocity: {min: -1, max: 1, count: 8192}}"},
+     "more than 16777216 cells"),
     ({"changed": "pendulum: {k: 0.1, m: 0.3}"}, "pendulum.damping: is missing"),
     ({"changed": "basin: {velocity: {min: 2, max: 1}}"}, "basin.velocity.max"), ({"changed": "1"}, "change"),
     ({"atlas": "none.h5"}, "none.h5: cannot be opened")])

@@ -1,5 +1,5 @@
-"""The Python package: what `pip install .` gives, what type checker and linter say of it, its panels on anybody's Axes, and files of
-every kind whose variables or attributes are missing or wrong."""
+"""The Python package: what `pip install .` gives, what type checker and linter say of it, its panels on anybody's Axes,
+and files of every kind whose variables or attributes are missing or wrong."""
 
 import importlib
 import inspect
@@ -25,7 +25,8 @@ SCENES = {
     "orbit": "pendulum: {k: 0.1, damping: 0.2, m: 0.1}\norbit: {start: {theta: 1, velocity: 0}, periods: 5}\n",
     "stability": "stability: {k: {min: -0.5, max: 1, count: 7}, m: {min: 0, max: 1, count: 5}, damping: 0.05,"
                  " curves: [exact_1, damped_1, butikov_1], subharmonics: [2]}\n",
-    "potential": "pendulum: {k: 0.01, damping: 0.2, m: 0.3}\npotential: {drive_amplitudes: [0.2, 0.3], theta: {count: 9}}\n",
+    "potential": "pendulum: {k: 0.01, damping: 0.2, m: 0.3}\npotential: {drive_amplitudes: [0.2, 0.3], theta: {count: "
+                 "9}}\n",
 }
 
 
@@ -57,7 +58,8 @@ def sdist(tmp_path_factory):
 def test_the_sdist_has_all_that_a_build_needs(sdist):
     """Every file under version control but those of the repository itself."""
     parts = "CMakeLists.txt cmake include src python web scenes LICENSE README.md".split()
-    tracked = subprocess.run(["git", "ls-files", *parts], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+    tracked = subprocess.run(["git", "ls-files", *parts], cwd=ROOT, capture_output=True, text=True,
+                             check=True).stdout.split()
     with tarfile.open(sdist) as archive:
         held = {name.split("/", 1)[-1] for name in archive.getnames()}
     assert len(tracked) > 300 and not set(tracked) - held
@@ -72,7 +74,8 @@ def test_a_fresh_environment_builds_and_runs_an_example():
 @pytest.mark.parametrize("words, status", with_extensive([([], 2)], [(["portrait", "FILE"], 2), (["--help"], 0)]))
 def test_the_command_names_its_kinds(words, status):
     done = python("-c", "from kapitza.command import main; main()", *words)
-    assert done.returncode == status and "KIND: atlas, basin, compare" in done.stdout + done.stderr and "Traceback" not in done.stderr
+    assert done.returncode == status and "KIND: atlas, basin, compare" in done.stdout + done.stderr
+    assert "Traceback" not in done.stderr
 
 
 @pytest.mark.parametrize("tool", [pytest.param(["mypy"], marks=pytest.mark.extensive), ["ruff", "check"]])
@@ -83,8 +86,10 @@ def test_checkers_find_nothing(tool):
 
 def panels():
     """Every draw_* function of the modules of kapitza.plots."""
-    modules = [importlib.import_module(f"kapitza.plots.{module.name}") for module in pkgutil.iter_modules(plots.__path__)]
-    return {function for module in modules for name, function in vars(module).items() if name.startswith("draw_") and callable(function)}
+    modules = [importlib.import_module(f"kapitza.plots.{module.name}")
+               for module in pkgutil.iter_modules(plots.__path__)]
+    return {function for module in modules for name, function in vars(module).items() if name.startswith("draw_")
+            and callable(function)}
 
 
 def test_every_panel_takes_and_returns_an_axes():
@@ -99,10 +104,12 @@ def test_every_panel_takes_and_returns_an_axes():
 
 @pytest.mark.extensive
 def test_panels_keep_to_their_axes(made_file, results):
-    """On one figure of somebody else: the same Axes comes back, its neighbours stay empty, and without a legend there is none."""
+    """On one figure of somebody else: the same Axes comes back, its neighbours stay empty, and without a legend there
+    is none."""
     result, orbit = Result(made_file), Orbit(Result(results["orbit"]))
     basin, attractors = result.group("basin"), result.group("attractors")
-    calls = [(draw_basins, basin, attractors), (draw_one, basin, attractors, [1]), (draw_settling_time, basin), (draw_evidence, basin),
+    calls = [(draw_basins, basin, attractors), (draw_one, basin, attractors, [1]), (draw_settling_time, basin),
+             (draw_evidence, basin),
              (draw_time, orbit), (draw_path, orbit), (draw_phase, orbit), (draw_spectrum, orbit)]
     for function, *data in calls:
         mine, other = Figure().subplots(1, 2)
@@ -170,17 +177,21 @@ def test_what_is_missing_or_wrong_is_named(results, tmp_path, kind, name, how, w
     with h5py.File(path, "r+") as file:
         craft(file, kind, name, how)
     done = plot(kind, path, "-o", tmp_path / "out.png")
-    assert done.returncode == 1 and done.stderr.startswith(f"kapitza: error: {path}: ") and words in done.stderr, done.stderr
+    assert done.returncode == 1 and done.stderr.startswith(
+        f"kapitza: error: {path}: ") and words in done.stderr, done.stderr
     assert not (tmp_path / "out.png").exists()
 
 
 def test_an_import_loads_no_library(user_python):
-    """pandas, xarray and their like are loaded by the first name that needs them; names, modules and the version are there."""
+    """pandas, xarray and their like are loaded by the first name that needs them; names, modules and the version are
+    there."""
     script = """import sys, kapitza
-heavy = {"pandas", "xarray", "numpy", "matplotlib", "h5py", "h5netcdf", "scipy", "yaml", "tqdm", "PIL"} & set(sys.modules)
+heavy = {"pandas", "xarray", "numpy", "matplotlib", "h5py", "h5netcdf", "scipy", "yaml", "tqdm", "PIL"}
+heavy &= set(sys.modules)
 assert not heavy and sum(name.startswith("kapitza") for name in sys.modules) == 1, heavy
 assert set(kapitza.__all__) <= set(dir(kapitza)) and not hasattr(kapitza, "nonsense")
-assert all(callable(getattr(kapitza, name)) for name in kapitza.__all__) and kapitza.plots.__doc__ and kapitza.style.KINDS
+assert all(callable(getattr(kapitza, name)) for name in kapitza.__all__)
+assert kapitza.plots.__doc__ and kapitza.style.KINDS
 print(kapitza.__version__)"""
     done = user_python("-c", script)
     version = subprocess.run([PROGRAM, "--version"], capture_output=True, text=True, check=True).stdout.split()[1]

@@ -53,7 +53,8 @@ def test_attractors_are_those_of_a_run(pendulum):
     wanted, found = kapitza.run(scene, progress=False).attractors, pendulum.attractors()
     assert list(found.columns) == [name for name in wanted.columns if name != "fraction"]
     assert found["name"].tolist() == wanted["name"].tolist()
-    assert np.allclose(np.concatenate(found["strobe_theta"].tolist()), np.concatenate(wanted["strobe_theta"].tolist()), atol=1e-11)
+    assert np.allclose(np.concatenate(found["strobe_theta"].tolist()), np.concatenate(wanted["strobe_theta"].tolist()),
+                       atol=1e-11)
 
 
 def test_the_map_goes_back_and_its_tangent_is_that_of_differences(pendulum):
@@ -101,7 +102,8 @@ def test_a_cycle_near_a_state(pendulum):
     theta, velocity = found.strobe_theta.values, found.strobe_velocity.values
     matrix = pendulum.map(theta, velocity, tangent=True).tangent[0]
     multipliers = found.multiplier_re.values + 1j * found.multiplier_im.values
-    assert np.allclose(sorted(np.linalg.eigvals(matrix), key=lambda value: value.imag), sorted(multipliers, key=lambda value: value.imag))
+    assert np.allclose(sorted(np.linalg.eigvals(matrix), key=lambda value: value.imag),
+                       sorted(multipliers, key=lambda value: value.imag))
     with pytest.raises(ValueError, match="no cycle that closes after 1 periods lies within 1e-06 rad"):
         pendulum.cycle(1.0, 0.5, within=1e-6)
 
@@ -113,14 +115,16 @@ def test_a_manifold_leads_to_its_saddle(pendulum):
         assert line["arc_length"].iloc[-1] >= 1 and line["arc_length"].is_monotonic_increasing
         near = line[line["arc_length"] < 0.05]
         image = pendulum.map(near["theta"], near["velocity"], periods)
-        assert np.hypot(image.theta - float(saddle.strobe_theta[0]), image.velocity - float(saddle.strobe_velocity[0])).max() < 0.02
+        assert np.hypot(image.theta - float(saddle.strobe_theta[0]),
+                        image.velocity - float(saddle.strobe_velocity[0])).max() < 0.02
 
 
 def test_an_orbit_passes_the_strobes_of_the_map(pendulum):
     motion = pendulum.orbit(3.0, 0.1, periods=6, samples_per_period=8)
     assert len(motion) == 49 and motion["time"].iloc[-1] == pytest.approx(12 * np.pi)
     states = pendulum.map(np.full(6, 3.0), 0.1, 6)
-    assert np.remainder(motion["theta"].iloc[-1], 2 * np.pi) == pytest.approx(np.remainder(states.theta[0], 2 * np.pi), abs=1e-10)
+    assert np.remainder(motion["theta"].iloc[-1], 2 * np.pi) == pytest.approx(np.remainder(states.theta[0], 2 * np.pi),
+                                                                              abs=1e-10)
 
 
 def test_a_basin_is_drawn_into_axes_of_others(pendulum):
@@ -135,7 +139,8 @@ def test_a_basin_is_drawn_into_axes_of_others(pendulum):
 
 
 def test_a_window_of_any_depth(pendulum):
-    words = ["where", ROOT / "scenes" / "blackburn-fig12.yaml", "3.1", "0.2", "2.9", "0.2", "--boundary", "30", "--json"]
+    words = ["where", ROOT / "scenes" / "blackburn-fig12.yaml", "3.1", "0.2", "2.9", "0.2", "--boundary", "30",
+             "--json"]
     point = json.loads(subprocess.run([PROGRAM, *words], capture_output=True, text=True, check=True).stdout)
     axes = [{"centre": point[name], "width": 1e-25, "count": 8} for name in ("theta", "velocity")]
     assert len(set_of(pendulum.basin(*axes).attractor)) > 1
@@ -180,7 +185,8 @@ def run(code, timeout=120, **environment):
     return subprocess.run(line, capture_output=True, text=True, timeout=timeout, env=os.environ | paths)
 
 
-@pytest.mark.parametrize("call", ["p.where(np.linspace(-3, 3, 10**6), 0.3)", "p.basin(theta=3000, velocity=(-2, 2, 3000))",
+@pytest.mark.parametrize("call",
+                         ["p.where(np.linspace(-3, 3, 10**6), 0.3)", "p.basin(theta=3000, velocity=(-2, 2, 3000))",
                                   "p.map(np.zeros(1000), 0.5, 10**7)", "p.cycles(max_period=9)",
                                   "p.orbit(1, 0, periods=10**6)"])
 def test_a_signal_ends_a_call(call):
@@ -327,7 +333,8 @@ for place in [*range(1, min(most, 16)), *range(16, most, step)]:
     assert found == wanted, place
 print(refused > 10, most)
 """
-    done = run(code, timeout=600, LD_PRELOAD=str(PROGRAM.parent / "tests" / "failing_memory.so"), KZ_FAIL_CALLERS="libkapitza")
+    done = run(code, timeout=600, LD_PRELOAD=str(PROGRAM.parent / "tests" / "failing_memory.so"),
+               KZ_FAIL_CALLERS="libkapitza")
     assert done.stdout.startswith("True"), done
 
 

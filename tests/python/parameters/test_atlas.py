@@ -1,4 +1,5 @@
-"""The study atlas: curves against the linear equation and the flutter table, lists against `attractors`, ranks, resumed runs."""
+"""The study atlas: curves against the linear equation and the flutter table, lists against `attractors`, ranks, resumed
+runs."""
 
 import itertools
 import shutil
@@ -13,7 +14,8 @@ from serving import Server
 
 PENDULUM = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 SCENE = {"pendulum": PENDULUM,
-         "atlas": {"x": {"parameter": "drive_frequency", "min": 3, "max": 30}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.8},
+         "atlas": {"x": {"parameter": "drive_frequency", "min": 3, "max": 30},
+                   "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.8},
                    "max_period": 2, "checks": 24, "points": 64}}
 FOLD, DOUBLING, BREAKING, SWINGS, LEANS = range(5)
 
@@ -41,14 +43,16 @@ def crossing(xs, ys, x):
 
 
 def test_rest_is_that_of_the_linear_equation(atlas):
-    """A multiplier of inverted is -1 on the one curve, and 1 on the other: by an integrator that shares nothing with the program."""
+    """A multiplier of inverted is -1 on the one curve, and 1 on the other: by an integrator that shares nothing with
+    the program."""
     group = atlas[0].group("atlas")
     for kind, multiplier in ((SWINGS, -1), (LEANS, 1)):
         xs, ys = curve(group, kind, centre=1)
         inside = np.flatnonzero((xs > 3) & (xs < 30) & (ys > 0) & (ys < 0.8))
         for i in inside[:: max(1, len(inside) // 6)]:
             k, beta, m = xs[i] ** -2, 1 / (5 * xs[i]), ys[i]
-            ends = [flown(lambda t, u, k=k, beta=beta, m=m: [u[1], -beta * u[1] + (k - m * np.cos(t)) * u[0]], 2 * np.pi, start, 1e-13)
+            ends = [flown(lambda t, u, k=k, beta=beta, m=m: [u[1], -beta * u[1] + (k - m * np.cos(t)) * u[0]],
+                          2 * np.pi, start, 1e-13)
                     for start in ([1, 0], [0, 1])]
             assert abs(ends[0][0] + ends[1][1] - multiplier * (1 + np.exp(-2 * np.pi * beta))) < 3e-11
 
@@ -61,7 +65,8 @@ def test_rest_is_that_of_the_study_stability(atlas, kapitza, tmp_path):
         inside = np.flatnonzero((xs > 5) & (xs < 30) & (ys > 0) & (ys < 0.8))
         for at in inside[np.linspace(0, len(inside) - 1, 17).astype(int)] if EXTENSIVE else inside[7:8]:
             k = (1 if centre == 0 else -1) / xs[at] ** 2
-            axes = {"k": {"min": min(k, 2 * k), "max": max(k, 2 * k), "count": 2}, "m": {"min": 0, "max": 0.8, "count": 2}}
+            axes = {"k": {"min": min(k, 2 * k), "max": max(k, 2 * k), "count": 2},
+                    "m": {"min": 0, "max": 0.8, "count": 2}}
             result, _ = run_scene(kapitza, tmp_path, {"stability": axes | {"quality_factor": 5, "curves": [name]}})
             found = result.group("stability")[name].values[0 if k > 0 else 1]
             assert abs(found - ys[at]) < 1e-12, (name, xs[at])
@@ -70,7 +75,8 @@ def test_rest_is_that_of_the_study_stability(atlas, kapitza, tmp_path):
 def test_flutter_is_that_of_the_studies(atlas):
     """Birth, loss of symmetry, doubling, where the table of docs/validation/studies.md has them."""
     group = atlas[0].group("atlas")
-    for omega, birth, broken, doubled in ((7, 0.488875356, 0.577613876, 0.587068), (11, 0.468190302390, 0.561845642631, 0.571655778),
+    for omega, birth, broken, doubled in ((7, 0.488875356, 0.577613876, 0.587068),
+                                          (11, 0.468190302390, 0.561845642631, 0.571655778),
                                           (20, 0.458316643, 0.554420006, 0.564402)):
         assert abs(crossing(*curve(group, SWINGS, centre=1), omega) - birth) < 1e-6
         assert abs(crossing(*curve(group, BREAKING, centre=1), omega) - broken) < 1e-6
@@ -80,8 +86,10 @@ def test_flutter_is_that_of_the_studies(atlas):
 def test_lists_are_those_of_the_search(atlas, kapitza, tmp_path):
     """The classes and their numbers at single places."""
     group = atlas[0].group("atlas")
-    assert int(group.attrs["negative"]) == 0 and int(group.attrs["disagreed"]) == 0 and int(group.attrs["checked"]) == 24
-    assert int(group.attrs["listed"]) > 48 and int(group.attrs["unsolved"]) == 0 and 0 < float(group.attrs["unsolved_high"]) < 0.1
+    assert int(group.attrs["negative"]) == 0 and int(group.attrs["disagreed"]) == 0
+    assert int(group.attrs["checked"]) == 24
+    assert int(group.attrs["listed"]) > 48 and int(group.attrs["unsolved"]) == 0
+    assert 0 < float(group.attrs["unsolved_high"]) < 0.1
     assert int(group.attrs["open_ends"]) == 0 and not group["curve_open"].values.any()
     for column, row in ((8, 12), (20, 30), (40, 40), (50, 52), (30, 46)):
         here = dict(PENDULUM, drive_frequency=float(group["column"][column]), drive_amplitude=float(group["row"][row]))
@@ -104,23 +112,28 @@ def test_a_moving_frame_takes_the_motions_of_its_point(atlas):
             return {"atlas": str(atlas[2]), "x": 11, "y": epsilon}
 
         names(0.463)
-        assert "flutter" not in names(0.475) and "inverted" in names(0.463, **listed(0.463)) and "flutter" in names(0.476, **listed(0.476))
+        assert "flutter" not in names(0.475) and "inverted" in names(0.463, **listed(0.463))
+        assert "flutter" in names(0.476, **listed(0.476))
         assert "flutter" in names(0.55, **listed(0.55))
-        for keys, message in (({"x": 11, "y": 0.3}, "x: is a point of an atlas"), (listed(0.4), "the atlas has another pendulum there"),
-                              (listed(0.4) | {"y": 2}, "lies outside of the atlas"), ({"atlas": str(atlas[2]), "x": 11}, "y: is missing")):
-            answer = server.ask("frame", rows=8, columns=8, quality="moving", pendulum=PENDULUM | {"drive_amplitude": 0.41}, **keys)[-1][0]
+        for keys, message in (({"x": 11, "y": 0.3}, "x: is a point of an atlas"),
+                              (listed(0.4), "the atlas has another pendulum there"),
+                              (listed(0.4) | {"y": 2}, "lies outside of the atlas"),
+                              ({"atlas": str(atlas[2]), "x": 11}, "y: is missing")):
+            answer = server.ask("frame", rows=8, columns=8, quality="moving",
+                                pendulum=PENDULUM | {"drive_amplitude": 0.41}, **keys)[-1][0]
             assert answer["answer"] == "error" and message in answer["message"]
 
 
 def test_motions_of_a_point_are_cycles_of_its_pendulum(atlas):
-    """At random points the list is that of the raster, and every strobe point returns after its period, with the multipliers told: by an
-    integrator that shares nothing with the program."""
+    """At random points the list is that of the raster, and every strobe point returns after its period, with the
+    multipliers told: by an integrator that shares nothing with the program."""
     result, group = atlas[0], atlas[0].group("atlas")
     rng = np.random.default_rng(5)
     for column, row in rng.integers(0, 64, (12, 2)):
         omega, epsilon = float(group["column"][column]), float(group["row"][row])
         listed, found = result.motions(omega, epsilon, states=False), result.motions(omega, epsilon)
-        assert list(listed["name"]) == list(found["name"]) and int(found["images"].sum()) == int(group["count"][row, column])
+        assert list(listed["name"]) == list(found["name"])
+        assert int(found["images"].sum()) == int(group["count"][row, column])
         k, beta = omega ** -2, 1 / (5 * omega)
         for _, motion in found.iterrows():
             assert len(motion["strobe_theta"]) == motion["period"]
@@ -149,9 +162,11 @@ def test_a_line_has_every_crossing_and_what_repels(atlas):
             for at in np.flatnonzero(below[1:] != below[:-1]):
                 if max(branch["multiplier"].values[at:at + 2]) < 1:
                     attracting.add((branch["name"].iloc[0], round(float(branch["height"].iloc[at]), 1)))
-        assert {name for name, _ in attracting} == set(result.motions(float(group["column"][column]), value, states=False)["name"])
+        assert {name for name, _ in attracting} == set(result.motions(float(group["column"][column]), value,
+                                                                      states=False)["name"])
     assert (table["multiplier"] > 1).any() and abs(table["height"]).max() <= 1
-    upright = result.line(x=11).query("name == 'inverted' and multiplier == 1")["value"].values  # points where stability changes
+    # Points where stability changes
+    upright = result.line(x=11).query("name == 'inverted' and multiplier == 1")["value"].values
     assert len(upright) == 2 and abs(upright[1] - 0.468190302390) < 1e-9
     with pytest.raises(SceneError, match="lies outside of the atlas"):
         result.line(x=99)
@@ -160,7 +175,8 @@ def test_a_line_has_every_crossing_and_what_repels(atlas):
 
 
 def test_lists_that_are_not_known_are_told_by_nobody(atlas, tmp_path):
-    """A file whose folds of rotations have the wrong side: where the count is negative, motions are refused, pages and pictures say so."""
+    """A file whose folds of rotations have the wrong side: where the count is negative, motions are refused, pages and
+    pictures say so."""
     from kapitza.explorer.atlas import packed
     from kapitza.plots.atlas import map_page
     from kapitza.reading import arrays_of
@@ -176,8 +192,10 @@ def test_lists_that_are_not_known_are_told_by_nobody(atlas, tmp_path):
     wrong = Result(tmp_path / "wrong.h5")
     with pytest.raises(SceneError, match="the list of motions is not known at 11, 0.3"):
         wrong.motions(11, 0.3)
-    assert [None in packed(*arrays_of(result.path, "atlas"))[0]["lists"] for result in (wrong, atlas[0])] == [True, False]
-    texts = {word: [text.get_text() for text in map_page(result, result.group("atlas"), 16).axes[0].get_legend().get_texts()]
+    assert [None in packed(*arrays_of(result.path, "atlas"))[0]["lists"]
+            for result in (wrong, atlas[0])] == [True, False]
+    texts = {word: [text.get_text() for text in map_page(result, result.group("atlas"),
+                                                         16).axes[0].get_legend().get_texts()]
              for word, result in (("wrong", wrong), ("right", atlas[0]))}
     assert "not known: a curve is missing" in texts["wrong"] and "not known: a curve is missing" not in texts["right"]
 
@@ -219,13 +237,15 @@ def test_every_point_belongs_to_its_curve(atlas):
 
 
 def test_shares_are_of_attractors_that_the_list_has(kapitza, tmp_path):
-    """One rotation beside down and inverted: the shares of all are 1, and no class has one where it does not attract."""
+    """One rotation beside down and inverted: the shares of all are 1, and no class has one where it does not
+    attract."""
     scene = {"pendulum": PENDULUM, "atlas": {"x": {"parameter": "drive_frequency", "min": 8, "max": 12},
-                                             "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.4}, "max_period": 1, "checks": 0,
-                                             "points": 16, "shares": 100}}
+                                             "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.4},
+                                             "max_period": 1, "checks": 0, "points": 16, "shares": 100}}
     group = run_scene(kapitza, tmp_path, scene)[0].group("atlas")
     shares, other = group["region_fraction"].values, group["region_other"].values
-    assert len(shares) > 2 and np.allclose(shares.sum(axis=1) + other, 1) and (other < 0.5).any() and (shares > 0).sum() > 4
+    assert len(shares) > 2 and np.allclose(shares.sum(axis=1) + other,
+                                           1) and (other < 0.5).any() and (shares > 0).sum() > 4
     for region in range(len(shares)):
         column = int(np.argmin(abs(group["column"].values - float(group["region_x"][region]))))
         row = int(np.argmin(abs(group["row"].values - float(group["region_y"][region]))))
@@ -254,7 +274,8 @@ def test_ranks_and_resumed_runs_write_the_same(atlas, kapitza, tmp_path):
 
 
 def test_no_curve_is_missing(kapitza, tmp_path):
-    """Butikov's plane: no negative count (a fold begins at a degenerate period doubling), and each curve has its image at -k."""
+    """Butikov's plane: no negative count (a fold begins at a degenerate period doubling), and each curve has its image
+    at -k."""
     scene = {"pendulum": {"k": 0.1, "damping": 0.1, "m": 0.5},
              "atlas": {"x": {"parameter": "k", "min": -0.6, "max": 1.6}, "y": {"parameter": "m", "min": 0, "max": 2},
                        "max_period": 4 if EXTENSIVE else 2, "checks": 0, "points": 200 if EXTENSIVE else 64}}
@@ -273,19 +294,19 @@ def test_no_curve_is_missing(kapitza, tmp_path):
 def test_curves_of_cycles_that_few_starts_reach(kapitza, tmp_path):
     """Two pairs of rotations 1/2 are born in this plane. Attractors at 144 points show one of them."""
     scene = {"pendulum": PENDULUM, "atlas": {"x": {"parameter": "drive_frequency", "min": 9, "max": 13},
-                                             "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.6}, "max_period": 2, "checks": 0,
-                                             "points": 16}}
+                                             "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.6},
+                                             "max_period": 2, "checks": 0, "points": 16}}
     group = run_scene(kapitza, tmp_path, scene)[0].group("atlas")
     named = [(kind, period, winding) for kind, period, winding, *_ in curves_of(group)]
     assert named.count((FOLD, 2, 1)) == 2 and named.count((DOUBLING, 2, 1)) == 2
 
 
 def test_every_motion_of_the_lists_exists(kapitza, tmp_path):
-    """A rotation 1/2 doubles in this plane, and the doubled one loses its stability so soon that the two curves are nearly one.
-    Without the second curve the list of every point above had a motion that does not exist."""
+    """A rotation 1/2 doubles in this plane, and the doubled one loses its stability so soon that the two curves are
+    nearly one. Without the second curve the list of every point above had a motion that does not exist."""
     scene = {"pendulum": {"k": 0.1, "damping": 0.1, "m": 0.5},
-             "atlas": {"x": {"parameter": "k", "min": 0.1, "max": 1.6}, "y": {"parameter": "m", "min": 0, "max": 1}, "max_period": 4,
-                       "seeds": 4, "checks": 0, "points": 24}}
+             "atlas": {"x": {"parameter": "k", "min": 0.1, "max": 1.6}, "y": {"parameter": "m", "min": 0, "max": 1},
+                       "max_period": 4, "seeds": 4, "checks": 0, "points": 24}}
     result, told = run_scene(kapitza, tmp_path, scene)[0], 0
     group = result.group("atlas")
     for x, y in itertools.product(group["column"].values[1::4], group["row"].values[1::4]):
@@ -300,7 +321,8 @@ def test_every_motion_of_the_lists_exists(kapitza, tmp_path):
 def test_without_gravity_both_rests_attract(kapitza, tmp_path, x):
     """Where k = 0 any drive holds both: in the middle of the first plane, and all over the second one."""
     scene = {"pendulum": {"k": 0, "damping": 0.1, "m": 0.3},
-             "atlas": {"x": x, "y": {"parameter": "m", "min": 0, "max": 0.4}, "max_period": 1, "checks": 0, "points": 17}}
+             "atlas": {"x": x, "y": {"parameter": "m", "min": 0, "max": 0.4}, "max_period": 1, "checks": 0,
+                       "points": 17}}
     result, _ = run_scene(kapitza, tmp_path, scene)
     group = result.group("atlas")
     assert int(group.attrs["negative"]) == 0 and (group["count"].values[:, 8] >= 2).all()
@@ -313,7 +335,8 @@ def test_a_fold_ends_where_it_meets_a_degenerate_period_doubling(kapitza, tmp_pa
     """A fold of four periods runs into one of two periods, and does not go on along the period doubling."""
     scene = {"pendulum": dict(PENDULUM, tilt="5 deg"),
              "atlas": {"x": {"parameter": "drive_frequency", "min": 9, "max": 13},
-                       "y": {"parameter": "drive_amplitude", "min": 0.45, "max": 0.6}, "max_period": 4, "checks": 0, "points": 64}}
+                       "y": {"parameter": "drive_amplitude", "min": 0.45, "max": 0.6}, "max_period": 4, "checks": 0,
+                       "points": 64}}
     assert int(run_scene(kapitza, tmp_path, scene)[0].group("atlas").attrs["negative"]) == 0
 
 
@@ -341,6 +364,7 @@ def test_a_fold_begins_at_each_degenerate_doubling(atlas):
     first, points, kind = (group[f"curve_{name}"].values for name in ("first", "points", "kind"))
     places = list(zip(group["x"].values, group["y"].values, strict=True))
     ends = {places[at] for i in range(len(kind)) if kind[i] == FOLD for at in (first[i], first[i] + points[i] - 1)}
-    doubled = {(x, y) for x, y, on in zip(*(group[f"special_{name}"].values for name in ("x", "y", "curve")), strict=True)
+    doubled = {(x, y) for x, y, on in zip(*(group[f"special_{name}"].values for name in ("x", "y", "curve")),
+                                          strict=True)
                if kind[on] == DOUBLING}
     assert doubled and doubled <= ends

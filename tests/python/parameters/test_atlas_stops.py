@@ -1,4 +1,5 @@
-"""An atlas that is stopped in each of its stages, one after the other, and resumed on another number of ranks: the same bytes."""
+"""An atlas that is stopped in each of its stages, one after the other, and resumed on another number of ranks: the same
+bytes."""
 
 import json
 
@@ -6,13 +7,16 @@ import pytest
 from conftest import datasets, stopped_in_each_stage, with_extensive
 from test_atlas import PENDULUM
 
-STAGES = {"atlas cycles", "atlas births", "atlas branches", "atlas curves", "atlas checks", "atlas motions", "atlas shares"}
+STAGES = {"atlas cycles", "atlas births", "atlas branches", "atlas curves", "atlas checks", "atlas motions",
+          "atlas shares"}
 SMALL = {"pendulum": PENDULUM,
-         "atlas": {"x": {"parameter": "drive_frequency", "min": 9, "max": 12}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.3},
+         "atlas": {"x": {"parameter": "drive_frequency", "min": 9, "max": 12},
+                   "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.3},
                    "max_period": 1, "seeds": 2, "checks": 2, "points": 16, "shares": 40}}
 # Its first round finds curves with wide bands, so that a third one is needed.
 LARGER = {"pendulum": PENDULUM,
-          "atlas": SMALL["atlas"] | {"y": {"parameter": "drive_amplitude", "min": 0, "max": 0.5}, "max_period": 2, "checks": 3}}
+          "atlas": SMALL["atlas"] | {"y": {"parameter": "drive_amplitude", "min": 0, "max": 0.5}, "max_period": 2,
+                                     "checks": 3}}
 TILTED = {"pendulum": dict(PENDULUM, tilt="5 deg"),
           "atlas": SMALL["atlas"] | {"y": {"parameter": "drive_amplitude", "min": 0.1, "max": 0.3}}}
 

@@ -1,4 +1,5 @@
-"""Ends of the branches of sweeps along lines through several planes, against the curves of an atlas of a narrow plane about each line."""
+"""Ends of the branches of sweeps along lines through several planes, against the curves of an atlas of a narrow plane
+about each line."""
 
 import json
 
@@ -18,14 +19,15 @@ LINES = {"m": (BUTIKOV, "m", 0.42, 0.9, 9, "k"),
          "torque": (BUTIKOV | {"torque": 0.05}, "torque", 0.0, 0.2, 11, "m"),
          "quality": (BLACKBURN, "quality_factor", 2, 11, 10, "drive_amplitude"),
          "square wave": (BLACKBURN | {"waveform": "square"}, "drive_amplitude", 0.2, 0.45, 11, "drive_frequency"),
-         "laboratory": ({"length": "20 cm", "frequency": "16 Hz", "amplitude": "6 cm", "quality_factor": 5}, "amplitude", 0.05, 0.12, 11,
-                        "frequency")}
+         "laboratory": ({"length": "20 cm", "frequency": "16 Hz", "amplitude": "6 cm", "quality_factor": 5},
+                        "amplitude", 0.05, 0.12, 11, "frequency")}
 LEFT, NOT_LOCATED = 0, 5
 UNITS = {"laboratory": 16}  # the key that is the same, in the unit of the file
 
 
 def crossings(group, value):
-    """Where curves pass x = value, by polynomials through up to six points; the plane is narrow, so that they are nearly straight."""
+    """Where curves pass x = value, by polynomials through up to six points; the plane is narrow, so that they are
+    nearly straight."""
     found = []
     for first, n in zip(group["curve_first"].values, group["curve_points"].values, strict=True):
         xs, ys = group["x"].values[first:first + n], group["y"].values[first:first + n]
@@ -41,8 +43,8 @@ def crossings(group, value):
 def test_ends_of_branches_lie_on_curves_of_the_atlas(kapitza, tmp_path, name):
     pendulum, key, low, high, count, other = LINES[name]
     value = UNITS.get(name, pendulum[other])
-    studies = {"sweep": {"parameter": key, "min": low, "max": high, "count": count, "measure": ["attractors"], "starts": 1024,
-                         "max_period": 4},
+    studies = {"sweep": {"parameter": key, "min": low, "max": high, "count": count, "measure": ["attractors"],
+                         "starts": 1024, "max_period": 4},
                "atlas": {"x": {"parameter": other, "min": 0.9999 * value, "max": 1.0001 * value},
                          "y": {"parameter": key, "min": low, "max": high}, "max_period": 4, "checks": 0, "points": 16}}
     for study, keys in studies.items():

@@ -1,4 +1,5 @@
-"""Ends over a plane, a measure of sweeps: ends against single runs and the linear theory, starts that cannot settle, ranks, pictures."""
+"""Ends over a plane, a measure of sweeps: ends against single runs and the linear theory, starts that cannot settle,
+ranks, pictures."""
 
 import json
 
@@ -25,7 +26,8 @@ def test_ends_are_those_of_single_runs(chart, kapitza, tmp_path):
     """Period and winding as `where` has them, wherever double precision decides."""
     group, _, _ = chart
     decided = 0
-    for column, row, place in ((2, 1, 0), (4, 4, 1), (6, 2, 1), (8, 1, 1), (9, 3, 0), (10, 4, 0), (11, 1, 0), (12, 2, 1)):
+    for column, row, place in ((2, 1, 0), (4, 4, 1), (6, 2, 1), (8, 1, 1), (9, 3, 0), (10, 4, 0), (11, 1, 0),
+                               (12, 2, 1)):
         point = group.isel(x=column, y=row, start=place)
         pendulum = {"k": 0.05, "damping": float(point["y"]), "m": float(point["x"])}
         (tmp_path / "w.yaml").write_text(json.dumps({"pendulum": pendulum,
@@ -34,12 +36,14 @@ def test_ends_are_those_of_single_runs(chart, kapitza, tmp_path):
         if not end["decided"] or end["period"] == 0 or end["period"] > 8:
             continue
         decided += 1
-        assert (int(point["end"]), int(point["end_period"]), int(point["end_winding"])) == (CYCLE, end["period"], end["winding"]), pendulum
+        assert (int(point["end"]), int(point["end_period"]),
+                int(point["end_winding"])) == (CYCLE, end["period"], end["winding"]), pendulum
     assert decided >= 6
 
 
 def test_what_cannot_settle_is_told(chart):
-    """No damping: no end; a start on the inverted rest: it ends there where that attracts, and nowhere where it does not."""
+    """No damping: no end; a start on the inverted rest: it ends there where that attracts, and nowhere where it does
+    not."""
     group, summary, _ = chart
     assert (group["end"].isel(y=0) == NO_PENDULUM).all() and np.isnan(group["exponent"].isel(y=0)).all()
     resting = group.isel(start=2, y=slice(1, None))

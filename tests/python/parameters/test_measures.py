@@ -1,4 +1,5 @@
-"""The study measures: one table of numbers about attractors and basins, against other studies and known answers; ranks; refusals."""
+"""The study measures: one table of numbers about attractors and basins, against other studies and known answers; ranks;
+refusals."""
 
 import math
 
@@ -9,8 +10,10 @@ from kapitza.style import parameters_text
 
 FIG12 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 WINDOW = {"velocity": {"min": -2, "max": 2}}
-CHEAP = ["share", "weighted_share", "share_within", "settling_mean", "settling_median", "settling_largest", "return_time", "reactivity",
-         "amplification", "integrity_local", "integrity_global", "integrity_factor", "entropy", "boundary_entropy", "uncertainty_exponent",
+CHEAP = ["share", "weighted_share", "share_within", "settling_mean", "settling_median", "settling_largest",
+         "return_time", "reactivity",
+         "amplification", "integrity_local", "integrity_global", "integrity_factor", "entropy", "boundary_entropy",
+         "uncertainty_exponent",
          "boundary_dimension", "intermingledness", "intermingled_with", "shared_boundary", "wada_on_grid"]
 
 
@@ -40,7 +43,8 @@ def test_the_table_agrees_with_the_basin(fig12):
 
 
 def test_near_the_attractor(fig12):
-    """Complex multipliers have the modulus exp(-pi beta n); mirror images grow alike; any later strobe includes the next one."""
+    """Complex multipliers have the modulus exp(-pi beta n); mirror images grow alike; any later strobe includes the
+    next one."""
     table, beta = fig12.measures, fig12.pendulum["beta"]
     complex_pairs = np.array([abs(row[0].imag) > 0 for row in fig12.attractors["multipliers"]])
     if len(table) == len(complex_pairs):
@@ -63,8 +67,10 @@ def test_shocks_are_those_of_the_basin(kapitza, tmp_path):
     """And the circle about the strobe point in the picture has the radius of the smallest shock, to a cell."""
     pendulum = {"k": 0.05, "damping": 0.3, "m": 0.4}
     scene = {"pendulum": pendulum,
-             "basin": {"theta": {"count": 24}, "velocity": WINDOW["velocity"] | {"count": 24}, "shocks": {"sizes": [0.3]}},
-             "measures": WINDOW | {"names": ["shock_angle", "shock_velocity", "shock", "harmless", "integrity_local"], "cells": 256}}
+             "basin": {"theta": {"count": 24}, "velocity": WINDOW["velocity"] | {"count": 24},
+                       "shocks": {"sizes": [0.3]}},
+             "measures": WINDOW | {"names": ["shock_angle", "shock_velocity", "shock", "harmless", "integrity_local"],
+                                   "cells": 256}}
     result, _ = run_scene(kapitza, tmp_path, scene)
     table, shocks = result.measures, result.group("shocks")
     for name in table["name"]:
@@ -83,7 +89,8 @@ def test_shocks_are_those_of_the_basin(kapitza, tmp_path):
 
 def test_any_number_of_ranks_and_a_stop(kapitza, tmp_path):
     names = ["share", "settling_mean", "entropy", "reactivity"]
-    scene = {"pendulum": FIG12 | {"quality_factor": 20}, "measures": WINDOW | {"names": names, "starts": 600, "cells": 48}}
+    scene = {"pendulum": FIG12 | {"quality_factor": 20},
+             "measures": WINDOW | {"names": names, "starts": 600, "cells": 48}}
     stopped = stopped_and_resumed(kapitza, tmp_path, scene, ranks=3)
     assert datasets(stopped.path) == datasets(run_scene(kapitza, tmp_path, scene, ranks=2)[0].path)
 
@@ -101,7 +108,8 @@ def test_refused(kapitza, tmp_path, changes, words):
 
 
 def test_boundaries_of_the_whole_picture(kapitza, tmp_path):
-    """Boxes, slopes and largest circles, found again from the labels of the basin: 80 cells end within the largest boxes."""
+    """Boxes, slopes and largest circles, found again from the labels of the basin: 80 cells end within the largest
+    boxes."""
     window = {"theta": {"min": -1, "max": 3.5}, "velocity": {"min": -1.5, "max": 1.2}}
     names = ["shared_boundary", "wada_on_grid", "uncertainty_exponent", "boundary_dimension", "integrity_factor"]
     scene = {"pendulum": {"k": 0.03, "damping": 0.1, "m": 0.45, "tilt": 0.2},
@@ -139,7 +147,8 @@ def forced(torque, k=1, damping=0.2):
 
 
 def test_wada_basins_of_the_forced_pendulum(kapitza, tmp_path):
-    """Nusse and Yorke's case, theta'' + .2 theta' + sin theta = 1.66 cos t: three fractal basins in nearly every box of the boundary."""
+    """Nusse and Yorke's case, theta'' + .2 theta' + sin theta = 1.66 cos t: three fractal basins in nearly every box of
+    the boundary."""
     names = ["share", "boundary_entropy", "shared_boundary", "uncertainty_exponent"]
     result, _ = run_scene(kapitza, tmp_path, {"pendulum": forced(1.66), "measures": FORCED | {"names": names}})
     assert parameters_text(result.pendulum) == "Q = 5,  $\\Omega$ = 1,  torque amplitude = 1.66"
@@ -150,7 +159,8 @@ def test_wada_basins_of_the_forced_pendulum(kapitza, tmp_path):
 
 
 def test_long_transients_end_on_two_cycles(kapitza, tmp_path):
-    """theta'' + .2 theta' + sin theta = 15/11 cos t/2: two basins; scipy closes their cycles in the original equation."""
+    """theta'' + .2 theta' + sin theta = 15/11 cos t/2: two basins; scipy closes their cycles in the original
+    equation."""
     names = ["share", "return_time"]
     scene = {"pendulum": forced(60 / 11, k=4, damping=0.4), "measures": FORCED | {"names": names}}
     table = run_scene(kapitza, tmp_path, scene)[0].measures

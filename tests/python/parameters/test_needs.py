@@ -25,7 +25,8 @@ def test_the_slow_equation_gives_the_smallest_amplitude_of_a_fast_pivot():
     assert found["stands_g"][0] == pytest.approx(low * (2 * math.pi * 400) ** 2 / GRAVITY)
 
 
-@pytest.mark.parametrize(("hertz", "quality"), [("50", "3"), ("50", "200"), ("400", "100"), ("400", "200"), ("400", "1e6")])
+@pytest.mark.parametrize(("hertz", "quality"), [("50", "3"), ("50", "200"), ("400", "100"), ("400", "200"),
+                                                ("400", "1e6")])
 def test_flutter_ends_where_its_period_doubles_whatever_the_damping(hertz, quality):
     """Weak damping: a walk jumped to another cycle at m = 2; rounding stopped Newton's method where flutter begins."""
     found = json.loads(ask("--length", "1", "--frequency", hertz, "--quality-factor", quality, "--json").stdout)
@@ -37,11 +38,13 @@ def test_flutter_ends_where_its_period_doubles_whatever_the_damping(hertz, quali
     (["--length", "200", "--frequency", "50"], '--length: "200" is taken for metres; give its unit'),
     (["--length", "20", "kg", "--frequency", "50"], '--length: "20 kg" is in a unit of another quantity'),
     (["--length", "-1", "--frequency", "50"], '--length: "-1" is out of range; give a number above 0 in m'),
-    (["--length", "0.2", "--frequency", "1"], "--frequency: 1 Hz is not above that of the pendulum's own swings, 1.114 Hz"),
+    (["--length", "0.2", "--frequency", "1"],
+     "--frequency: 1 Hz is not above that of the pendulum's own swings, 1.114 Hz"),
     (["--length", "0.2", "--frequency", "50", "--quality-factor", "0"], '--quality-factor: "0" is out of range')])
 def test_what_is_refused(words, said):
     done = ask(*words)
-    assert (done.returncode, done.stdout) == (2, "") and done.stderr.startswith(f"kapitza: error: {said}") and done.stderr.count("\n") == 1
+    assert (done.returncode, done.stdout) == (2, "") and done.stderr.startswith(f"kapitza: error: {said}")
+    assert done.stderr.count("\n") == 1
 
 
 def test_the_page_of_amplitudes_holds_what_the_program_says():

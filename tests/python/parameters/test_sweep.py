@@ -1,4 +1,5 @@
-"""The study sweep against the literature (tests/literature/reference.json), and its promises: ranks, resuming, agreement."""
+"""The study sweep against the literature (tests/literature/reference.json), and its promises: ranks, resuming,
+agreement."""
 
 import json
 
@@ -20,30 +21,36 @@ FIG12 = FORM.format(5, 11)
 
 @pytest.fixture(scope="session")
 def sweep(kapitza, tmp_path_factory):
-    """Runs a sweep and gives its group as (arrays, attributes); run.file is the file of the last one, run.said its summary."""
+    """Runs a sweep and gives its group as (arrays, attributes); run.file is the file of the last one, run.said its
+    summary."""
 
     def run(measure, low, high, count, parameter="drive_amplitude", pendulum=FIG12, more=""):
-        text = SCENE.format(measure=measure, low=low, high=high, count=count, parameter=parameter, pendulum=pendulum, more=more)
+        text = SCENE.format(measure=measure, low=low, high=high, count=count, parameter=parameter, pendulum=pendulum,
+                            more=more)
         result, run.said = run_scene(kapitza, tmp_path_factory.mktemp("sweep"), text)
         run.file = result.path
         with h5py.File(run.file) as file:
             group = file["sweep"]
-            arrays = {name: item.asstr()[:] if h5py.check_string_dtype(item.dtype) else item[()] for name, item in group.items()}
+            arrays = {name: item.asstr()[:] if h5py.check_string_dtype(item.dtype) else item[()] for name,
+                      item in group.items()}
             return arrays, dict(group.attrs)
 
     return run
 
 
 def ends(branches, name, count=1, *, symmetric=None):
-    """(start, kind, end, kind) of the branch of that name that attracts at a value; `count` branches must have it, mirror images alike."""
+    """(start, kind, end, kind) of the branch of that name that attracts at a value; `count` branches must have it,
+    mirror images alike."""
     rows = [index for index, found in enumerate(branches["branch_name"])
-            if found == name and branches["branch_stable"][index] and np.isfinite(branches["branch_theta"][:, index]).any()
+            if found == name and branches["branch_stable"][index]
+            and np.isfinite(branches["branch_theta"][:, index]).any()
             and symmetric in (None, branches["branch_symmetric"][index])]
     assert len(rows) == count, list(branches["branch_name"])
     table = [(branches["branch_start"][row], KINDS[branches["branch_start_kind"][row]], branches["branch_end"][row],
               KINDS[branches["branch_end_kind"][row]]) for row in rows]
     for row in table[1:]:
-        assert row == (pytest.approx(table[0][0], abs=1e-8), table[0][1], pytest.approx(table[0][2], abs=1e-8), table[0][3])
+        assert row == (pytest.approx(table[0][0], abs=1e-8), table[0][1], pytest.approx(table[0][2], abs=1e-8),
+                       table[0][3])
     return table[0]
 
 
@@ -72,16 +79,20 @@ def test_inverted_gives_way_to_flutter(sweep):
 
 def test_flutter_begins_where_rest_ends_however_its_angle_is_written(sweep):
     """Upright rest may stand at -pi in a catalogue: what it turns into is found all the same."""
-    branches, _ = sweep("attractors", 0.6, 0.65, 2, "m", "{k: 0.1, damping: 0.1, m: 0.5}", ", starts: 256, max_period: 4")
-    assert ends(branches, "flutter") == (pytest.approx(0.625495916, abs=1e-9), "period_doubling", 0.65, "left_the_range")
+    branches, _ = sweep("attractors", 0.6, 0.65, 2, "m", "{k: 0.1, damping: 0.1, m: 0.5}",
+                        ", starts: 256, max_period: 4")
+    assert ends(branches, "flutter") == (pytest.approx(0.625495916, abs=1e-9), "period_doubling", 0.65,
+                                         "left_the_range")
 
 
 def test_a_doubled_cycle_ends_where_it_is_born(sweep):
-    """One value lies so little below the birth of flutter that a step of its branch ended on rest: flutter was told where there is none."""
+    """One value lies so little below the birth of flutter that a step of its branch ended on rest: flutter was told
+    where there is none."""
     branches, _ = sweep("attractors", 0.46205128205128204, 0.47974358974358977, 4, more=", starts: 128")
     assert ends(branches, "flutter")[:2] == (pytest.approx(0.46819030239028, abs=1e-11), "period_doubling")
     flutter = list(branches["branch_name"]).index("flutter")
-    assert np.isnan(branches["branch_theta"][:2, flutter]).all() and np.isfinite(branches["branch_theta"][2:, flutter]).all()
+    assert np.isnan(branches["branch_theta"][:2, flutter]).all()
+    assert np.isfinite(branches["branch_theta"][2:, flutter]).all()
 
 
 def test_short_lived_pair(sweep):
@@ -94,7 +105,8 @@ def test_hanging_state_and_its_doubling(sweep):
     branches, _ = sweep("attractors", 0.43, 0.55, 9, more=", starts: 512")
     low, high = (RANGES["period2_bottom"][key]["eps"] for key in ("low", "high"))
     assert ends(branches, "down")[2:] == (near(low), "period_doubling")
-    assert ends(branches, "down 2-nodding", symmetric=1) == (near(low), "period_doubling", near(high), "symmetry_breaking")
+    assert ends(branches, "down 2-nodding", symmetric=1) == (near(low), "period_doubling", near(high),
+                                                             "symmetry_breaking")
 
 
 def test_rotation_is_born_in_a_fold(sweep):
@@ -114,9 +126,11 @@ def test_a_branch_between_two_values(sweep):
     """The pair that a symmetric cycle of six periods turns into doubles before the next value."""
     branches, _ = sweep("attractors", 0.3, 0.312, 2, more=", starts: 1024")
     unseen = ~np.isfinite(branches["branch_theta"]).any(axis=0)
-    hidden = np.flatnonzero(branches["branch_stable"] & unseen & (branches["branch_period"] == 6) & (branches["branch_centre"] == 0))
+    hidden = np.flatnonzero(branches["branch_stable"] & unseen & (branches["branch_period"] == 6)
+                            & (branches["branch_centre"] == 0))
     assert len(hidden) == 1
-    assert branches["branch_start"][hidden[0]] == ends(branches, "down 6-nodding")[2] == pytest.approx(0.305920438, abs=1e-9)
+    assert branches["branch_start"][hidden[0]] == ends(branches,
+                                                       "down 6-nodding")[2] == pytest.approx(0.305920438, abs=1e-9)
     assert branches["branch_end"][hidden[0]] == pytest.approx(0.308037212, abs=1e-9)
     assert KINDS[branches["branch_end_kind"][hidden[0]]] == "period_doubling"
 
@@ -135,7 +149,8 @@ def test_flutter_loses_its_symmetry_then_doubles(sweep):
 
 
 def test_without_damping_multipliers_are_on_the_unit_circle(sweep):
-    group, _ = sweep("attractors", 0, 0.02, 3, "damping", "{k: 0.008264462809917356, damping: 0.02, m: 0.3}", ", starts: 256")
+    group, _ = sweep("attractors", 0, 0.02, 3, "damping", "{k: 0.008264462809917356, damping: 0.02, m: 0.3}",
+                     ", starts: 256")
     row = list(group["branch_name"]).index("inverted")
     assert KINDS[group["branch_start_kind"][row]] == "neimark_sacker" and abs(group["branch_start"][row]) < 1e-9
     assert np.isnan(group["branch_amplitude"][0]).all() and group["branch_amplitude"][1, row] == 0
@@ -143,7 +158,8 @@ def test_without_damping_multipliers_are_on_the_unit_circle(sweep):
 
 @pytest.mark.extensive
 def test_gravity_upside_down(sweep):
-    """k -> -k turns the pendulum over and shifts the drive by half a period: branches are mirrored, down becomes inverted."""
+    """k -> -k turns the pendulum over and shifts the drive by half a period: branches are mirrored, down becomes
+    inverted."""
     group, _ = sweep("attractors", -0.1, 0.1, 5, "k", "{k: 0.1, damping: 0.05, m: 0.4}", ", starts: 256")
     turned = {"down": "inverted", "inverted": "down", "flutter": "down 2-nodding", "down 2-nodding": "flutter"}
     lives = {name: (group["branch_start"][row], group["branch_start_kind"][row], group["branch_end"][row],
@@ -163,13 +179,15 @@ def test_chaos_is_one_branch(sweep):
     names = list(group["branch_name"][group["branch_stable"] == 1])
     row = names.index("chaotic")
     share = 100 * group["fraction"][:, row]
-    assert f"{np.nanmin(share):.2f} to {np.nanmax(share):.2f} %" in next(line for line in sweep.said.splitlines() if "chaotic" in line)
+    assert f"{np.nanmin(share):.2f} to {np.nanmax(share):.2f} %" in next(line for line in sweep.said.splitlines()
+                                                                         if "chaotic" in line)
     assert names.count("rotation +8/8") == names.count("rotation -8/8") == names.count("chaotic") == 1
     assert group["branch_period"][row] == 0 and group["branch_mirror"][row] == row
     assert (group["branch_start"][row], KINDS[group["branch_start_kind"][row]]) == (0.475, "not_located")
     assert KINDS[group["branch_end_kind"][row]] == "left_the_range" and group["fraction"][2, row] == 1
     rotation = names.index("rotation +8/8")
-    assert KINDS[group["branch_end_kind"][rotation]] == "period_doubling" and 0.45 < group["branch_end"][rotation] < 0.475
+    assert KINDS[group["branch_end_kind"][rotation]] == "period_doubling"
+    assert 0.45 < group["branch_end"][rotation] < 0.475
 
 
 NEAR_INVERTED = ", theta: {min: 3, max: 3.3}, velocity: {min: -0.02, max: 0.02}, starts: 16, max_period: 2"
@@ -210,11 +228,13 @@ def test_flutter_grows_with_the_square_root(flutter):
 
 def test_a_law_of_few_values_is_not_known(flutter):
     law = flutter(0.46, 0.475, 4).attrs
-    assert law["onset"] == pytest.approx(0.46819030239029, abs=1e-12) and np.isnan([law["slope"], law["exponent"]]).all()
+    assert law["onset"] == pytest.approx(0.46819030239029,
+                                         abs=1e-12) and np.isnan([law["slope"], law["exponent"]]).all()
 
 
 def test_without_damping_a_sweep_says_that_nothing_attracts(sweep):
-    arrays, _ = sweep("attractors", 0.2, 0.3, 2, pendulum="{drive_frequency: 11, drive_amplitude: 0.3}", more=", starts: 16")
+    arrays, _ = sweep("attractors", 0.2, 0.3, 2, pendulum="{drive_frequency: 11, drive_amplitude: 0.3}",
+                      more=", starts: 16")
     assert "without damping there are none" in sweep.said and "nan" not in sweep.said
     assert arrays["branch"].shape == (0,) and np.isnan(Result(sweep.file).flutter()["amplitude"]).all()
 
@@ -237,7 +257,8 @@ def test_releases_of_one_degree_fail_where_the_dots_are(kapitza, tmp_path, omega
     first = REFERENCE["blackburn_fig4_upper_flutter"][f"Omega{omega}_Q5"]["first_eps_1deg_release_fails"]
     over = f"{{parameter: drive_frequency, min: {omega}, max: {omega + 1}, count: 2}}"
     up = f"{{parameter: drive_amplitude, min: {first - 0.02}, max: {first}, count: 11}}"
-    text = f"pendulum: {FORM.format(5, omega)}\nsweep: {{x: {over}, y: {up}, measure: [ends], ends: {{theta: [179 deg]}}}}\n"
+    text = (f"pendulum: {FORM.format(5, omega)}\nsweep: {{x: {over}, y: {up}, measure: [ends], ends: {{theta: [179 "
+            f"deg]}}}}\n")
     plane = run_scene(kapitza, tmp_path, text)[0].group("plane")
     about = (plane["end"].values[0, :, 0] == 0) & (plane["end_centre"].values[0, :, 0] == 1)
     assert not about[-1] and (about[:-1].all() or omega == 11)  # there a step in between fails too
@@ -245,7 +266,8 @@ def test_releases_of_one_degree_fail_where_the_dots_are(kapitza, tmp_path, omega
 
 def test_what_replaces_the_measures_of_flutter_is_said(kapitza, tmp_path):
     for word in ("flutter_amplitude", "flutter_zone"):
-        text = SCENE.format(measure=word, low=0.46, high=0.47, count=2, parameter="drive_amplitude", pendulum=FIG12, more="")
+        text = SCENE.format(measure=word, low=0.46, high=0.47, count=2, parameter="drive_amplitude", pendulum=FIG12,
+                            more="")
         (tmp_path / "old.yaml").write_text(text)
         said = kapitza("check", tmp_path / "old.yaml", status=2).stderr
         assert said.count("\n") == 1 and f'"{word}"' in said and "it was removed: use attractors" in said
@@ -269,7 +291,8 @@ def test_releases_from_rest(sweep, q, omega, low, high, count):
                                 ("release_angle_scan", "release_angle", "release_angle_largest"))
         assert scan == pytest.approx(known["first_fail_deg"], abs=2e-5 if value < 0.3 else 1e-3)  # above: fractal edges
         assert first <= scan + 1e-6 <= largest + 2e-6
-        if (q, high) == (20, 0.25) and value > 0.15:  # a simple law: the rim, and the slow angle at t = 0, phi - epsilon sin phi
+        # A simple law: the rim, and the slow angle at t = 0, phi - epsilon sin phi
+        if (q, high) == (20, 0.25) and value > 0.15:
             rim = 2 / (omega * value) ** 2
             assert first == pytest.approx(np.degrees(np.arccos(rim) + value * np.sqrt(1 - rim**2)), abs=1.5)
         assert stays.max() == round(known["last_ok_deg"]) and abs(len(stays) - known["n_ok"]) <= 1

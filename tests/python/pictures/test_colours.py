@@ -11,11 +11,14 @@ from matplotlib.colors import to_rgb
 # Full dichromacy: Machado, Oliveira & Fernandes, IEEE TVCG 15 (2009) 1291, severity 1.0, on linear RGB.
 SIGHT = {
     "full": np.eye(3),
-    "protan": np.array([[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]]),
-    "deutan": np.array([[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]]),
+    "protan": np.array([[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216],
+                        [-0.003882, -0.048116, 1.051998]]),
+    "deutan": np.array([[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413],
+                        [-0.011820, 0.042940, 0.968881]]),
 }
 # CIE XYZ (D65, relative to white) from linear sRGB: IEC 61966-2-1.
-XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]) / [[0.9505], [1.0], [1.089]]
+XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]) / [[0.9505], [1.0],
+                                                                                                  [1.089]]
 
 
 def lab(colour, sight):
@@ -66,7 +69,8 @@ def test_names_that_occur_twice_get_their_ids():
     assert style.names_with_ids(["flutter", "down", "flutter"]) == ["flutter (0)", "down", "flutter (2)"]
 
 
-@pytest.mark.parametrize("share, text", [(0.3191, "31.9 %"), (0.0012, "0.12 %"), (1e-6, "< 0.01 %"), (1, "100 %"), (0, "0 %")])
+@pytest.mark.parametrize("share, text", [(0.3191, "31.9 %"), (0.0012, "0.12 %"), (1e-6, "< 0.01 %"), (1, "100 %"),
+                                         (0, "0 %")])
 def test_share_text(share, text):
     assert style.share_text(share) == text
 

@@ -101,8 +101,10 @@ def test_an_mp4_of_odd_pictures(tmp_path):
 def test_a_film_that_falls_into_a_boundary(tmp_path):
     """Six frames to 1e-24 as GIF: none is empty, none is like the one before."""
     (tmp_path / "k01.yaml").write_text("pendulum: {k: 0.1, damping: 0.1, m: 0.4}\n"
-                                       "basin: {theta: {count: 9}, velocity: {min: -20, max: 20, count: 9}, attractors: {starts: 512}}\n")
-    subprocess.run([sys.executable, ROOT / "scripts" / "film_zoom.py", "k01.yaml", "-2.36717282205514094284618936441679793", "17",
+                                       "basin: {theta: {count: 9}, velocity: {min: -20, max: 20, count: 9}, "
+                                       "attractors: {starts: 512}}\n")
+    subprocess.run([sys.executable, ROOT / "scripts" / "film_zoom.py", "k01.yaml",
+                    "-2.36717282205514094284618936441679793", "17",
                     "--to", "1e-24", "--count", "6", "--columns", "60", "--rows", "40", "-o", "zoom.gif"],
                    cwd=tmp_path, check=True)
     with Image.open(tmp_path / "zoom.gif") as film:
@@ -148,8 +150,8 @@ def png(width, height):
 
 
 @pytest.mark.parametrize("content, wrong", [
-    (png(30000, 30000), "has 30000 x 30000 pixels"), (png(12000, 12000), "has 12000 x 12000 pixels"), (b"BM" + bytes(60), "is no PNG"),
-    (png(30, 30)[:20], "is no PNG"), (png(30, 30), "truncated")])
+    (png(30000, 30000), "has 30000 x 30000 pixels"), (png(12000, 12000), "has 12000 x 12000 pixels"),
+    (b"BM" + bytes(60), "is no PNG"), (png(30, 30)[:20], "is no PNG"), (png(30, 30), "truncated")])
 def test_pictures_that_are_too_large_or_damaged_cost_one_line(tmp_path, content, wrong):
     """Nothing is made of them: neither pixels in memory nor a part of a film."""
     with zipfile.ZipFile(tmp_path / "film.zip", "w") as archive:
@@ -171,7 +173,8 @@ def test_a_damaged_archive_costs_one_line(tmp_path):
     path.write_bytes(whole[:start] + b"\xff" * 10 + whole[start + 10:])
     with pytest.raises(BadFile, match="is not a ZIP of pictures"):
         recording.main([str(path), "-o", str(tmp_path / "film.gif")])
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive, archive.open("film-000.png", "w") as file:
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED,
+                         compresslevel=1) as archive, archive.open("film-000.png", "w") as file:
         for _ in range(140):
             file.write(bytes(1_000_000))
     with pytest.raises(BadFile, match="takes more than 133 MB"):

@@ -19,7 +19,8 @@ from matplotlib.figure import Figure
 SI = {"length": "20 cm", "decay_time": "5 s", "gravity": "9.81 m/s^2", "frequency": "50 Hz", "amplitude": "15 mm"}
 SCENE = {"pendulum": SI, "sweep": {"x": {"parameter": "frequency", "min": "45 Hz", "max": "50 Hz", "count": 3},
                                    "y": {"parameter": "amplitude", "min": "4 mm", "max": "14 mm", "count": 2},
-                                   "measure": ["share", "entropy"], "velocity": {"min": -1, "max": 1}, "starts": 64, "cells": 16}}
+                                   "measure": ["share", "entropy"], "velocity": {"min": -1, "max": 1}, "starts": 64,
+                                   "cells": 16}}
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +33,8 @@ def test_a_plane_has_a_panel_for_each_name_and_one_for_a_measure_of_the_pendulum
     group = Result(plane).group("plane")
     assert plot("plane", plane, "-o", tmp_path / "share.svg").returncode == 0
     text = (tmp_path / "share.svg").read_text()
-    assert all(f">{words}<" in text for words in ("inverted", "share of the starts of the window that end on the attractor",
+    assert all(f">{words}<" in text
+               for words in ("inverted", "share of the starts of the window that end on the attractor",
                                                   "frequency (Hz)", "amplitude (mm)")), text
     assert np.isnan(group["share"]).any() and "hatched: no value, or the attractor is not seen" in text
     assert plot("plane", plane, "-o", tmp_path / "entropy.svg", "--measure", "entropy").returncode == 0
@@ -61,8 +63,10 @@ def test_attractors_of_one_name_are_added_or_the_smallest_counts():
 
 def test_the_curves_of_an_atlas_of_the_same_pendulum_lie_on_top(monkeypatch):
     """Of both mirror images of the motion of the panel; an atlas of other keys or of another pendulum is refused."""
-    atlas = xarray.Dataset({"curve_name": ("curve", ["rotation 1/1: fold", "down: swings grow"]), "curve_first": ("curve", [0, 2]),
-                            "curve_points": ("curve", [2, 1]), "x": ("point", [1.0, 2, 3]), "y": ("point", [4.0, 5, 6])},
+    atlas = xarray.Dataset({"curve_name": ("curve", ["rotation 1/1: fold", "down: swings grow"]),
+                            "curve_first": ("curve", [0, 2]),
+                            "curve_points": ("curve", [2, 1]), "x": ("point", [1.0, 2, 3]),
+                            "y": ("point", [4.0, 5, 6])},
                            attrs={"x_parameter": "k", "y_parameter": "m"})
     axes = draw_curves(Figure().add_subplot(), atlas, "rotation -1/1")
     line, = axes.lines
@@ -98,8 +102,10 @@ def test_a_passport_is_one_page_about_an_attractor(table, tmp_path):
     assert done.returncode == 0, done.stderr
     text, row = (tmp_path / "out.svg").read_text(), Result(table).measures.set_index("name").loc["rotation +1/1"]
     modulus = np.exp(-np.pi * Result(table).pendulum["beta"])
-    assert all(f">{words}<" in text for words in ("time (drive periods)", "frequency / drive frequency", "real part of the multiplier",
-                                                  f"modulus {modulus:.4g}", "angle θ from down (rad)", "return time", "entropy",
+    assert all(f">{words}<" in text for words in ("time (drive periods)", "frequency / drive frequency",
+                                                  "real part of the multiplier",
+                                                  f"modulus {modulus:.4g}", "angle θ from down (rad)", "return time",
+                                                  "entropy",
                                                   f"{row['return_time']:.4g} drive periods", f"{row['entropy']:.4g}"))
     assert "in the file" not in text and "intermingled" not in text
 
@@ -109,7 +115,8 @@ def test_a_passport_says_what_the_file_lacks(plane, table, tmp_path):
         del file["basin"], file["attractors"]
     assert plot("passport", tmp_path / "less.h5", "--attractor", 0, "-o", tmp_path / "out.svg").returncode == 0
     assert "in the file: no multipliers, no basin" in (tmp_path / "out.svg").read_text()
-    for path, words in ((plane, "holds neither attractors nor measures"), (table, "has no attractor nobody; it has 0..")):
+    for path, words in ((plane, "holds neither attractors nor measures"),
+                        (table, "has no attractor nobody; it has 0..")):
         done = plot("passport", path, "--attractor", "nobody", "-o", tmp_path / "no.png")
         assert done.returncode == 1 and words in done.stderr and not (tmp_path / "no.png").exists()
 
@@ -118,5 +125,6 @@ def test_a_report_has_the_table_of_measures_and_the_plane(plane, table, undrawn)
     text, rows = report(Result(table)), Result(table).measures
     assert "<h2>Measures</h2>" in text
     cells = re.search(r"<tr><td>share</td>(.*?)</tr>", text)[1]
-    assert [float(cell.split()[0]) for cell in re.findall(r">([^<]+)<", cells)] == pytest.approx(rows["share"].tolist(), rel=1e-3)
+    assert [float(cell.split()[0]) for cell in re.findall(r">([^<]+)<", cells)] == pytest.approx(rows["share"].tolist(),
+                                                                                                 rel=1e-3)
     assert "Over the plane of two keys." in report(Result(plane))

@@ -1,5 +1,5 @@
-"""Pictures as functions: keywords and the options of the command line are the same, an axes of one's own takes a picture, colours go by
-names."""
+"""Pictures as functions: keywords and the options of the command line are the same, an axes of one's own takes a
+picture, colours go by names."""
 
 import inspect
 
@@ -34,7 +34,8 @@ def test_an_axes_takes_a_picture_and_its_figure_stays(made_file):
     right.plot([0, 1], [0, 1])
     assert result.plot(ax=left, centre="inverted", legend="none") is figure
     assert len(left.images) == 1 and left.get_legend() is None and left.lines and "angle" in left.get_xlabel()
-    assert tuple(figure.get_size_inches()) == (9, 4) and not figure.texts and figure.get_supxlabel() == "" and len(right.lines) == 1
+    assert tuple(figure.get_size_inches()) == (9, 4) and not figure.texts and figure.get_supxlabel() == ""
+    assert len(right.lines) == 1
     alone = result.plot(centre="inverted", legend="none").axes[0]
     assert np.array_equal(left.images[0].get_array(), alone.images[0].get_array())
     assert result.plot(ax=right, quantity="evidence", font_size=7).axes[:2] == [left, right] and right.get_legend()
@@ -56,8 +57,10 @@ def test_colours_are_a_mapping_too(made_file, tmp_path):
     result, mine = kapitza.Result(made_file), {"inverted": "#010203", "rotation +": "teal"}
     image, labels = result.plot(colours=mine, no_dots=True).axes[0].images[0].get_array(), result.labels().values
     assert np.allclose(image[labels == 1], to_rgb("#010203")) and np.allclose(image[labels == 4], to_rgb("teal"))
-    for wrong, words in (({"invertd": "gold"}, "invertd is the name of no motion; the names are inverted, down, rotation [+]"),
-                         ({"inverted": "goldish"}, "'goldish' is not a colour"), ({"rotation 1/2": "red"}, "such as rotation [+]1/2")):
+    for wrong, words in (({"invertd": "gold"},
+                          "invertd is the name of no motion; the names are inverted, down, rotation [+]"),
+                         ({"inverted": "goldish"}, "'goldish' is not a colour"),
+                         ({"rotation 1/2": "red"}, "such as rotation [+]1/2")):
         with pytest.raises(ValueError, match=words):
             result.plot(colours=wrong)
         (tmp_path / "wrong.yaml").write_text("".join(f"{name}: {colour}\n" for name, colour in wrong.items()))
@@ -67,14 +70,17 @@ def test_colours_are_a_mapping_too(made_file, tmp_path):
 
 def test_every_name_of_a_motion_may_have_a_colour(made_file, swept):
     """Of attractors of this file or another one, alone or with an id."""
-    names = [*kapitza.Result(made_file).names, *map(str, kapitza.Result(swept).group("sweep")["branch_name"].values), "wide 3-nodding",
+    names = [*kapitza.Result(made_file).names, *map(str, kapitza.Result(swept).group("sweep")["branch_name"].values),
+             "wide 3-nodding",
              "rotation -7/3", "inverted 3-nodding (12)", "running -", "running + (3)", "not settled", "down nodding"]
     assert colours_of(dict.fromkeys(names, "gold")) == dict.fromkeys(names, "gold")
 
 
 @pytest.mark.parametrize(("options", "wrong"), [
-    ({"centre": "up"}, "centre: 'up' is unknown; it must be one of down, inverted"), ({"font_size": 1}, "font_size: 1 is out of range"),
-    ({"attractor": 0, "shade": True}, "^attractor cannot be combined with quantity or shade"), ({"dpi": 300}, "'dpi' is no option"),
+    ({"centre": "up"}, "centre: 'up' is unknown; it must be one of down, inverted"),
+    ({"font_size": 1}, "font_size: 1 is out of range"),
+    ({"attractor": 0, "shade": True}, "^attractor cannot be combined with quantity or shade"),
+    ({"dpi": 300}, "'dpi' is no option"),
     ({"width": 900}, "width: 900in is not a width"), ({"quantity": 3}, "quantity: 3 is unknown")])
 def test_options_that_are_none(made_file, options, wrong):
     with pytest.raises(ValueError, match=wrong):

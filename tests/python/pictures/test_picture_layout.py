@@ -1,4 +1,5 @@
-"""The page of a picture: its width, letters, legend and colours; what a stability chart can say of frequencies; crafted files."""
+"""The page of a picture: its width, letters, legend and colours; what a stability chart can say of frequencies; crafted
+files."""
 
 import subprocess
 import sys
@@ -16,7 +17,8 @@ from matplotlib.colors import to_rgb
 
 @pytest.mark.parametrize("width, inches", with_extensive([("86mm", 86 / 25.4)], [("8.6cm", 86 / 25.4), ("6in", 6.0)]))
 def test_a_picture_is_as_wide_as_it_is_asked_to_be(made_file, tmp_path, width, inches):
-    assert plot("basin", made_file, "-o", tmp_path / "a.png", "--dpi", 100, "--width", width, "--font-size", 8).returncode == 0
+    assert plot("basin", made_file, "-o", tmp_path / "a.png", "--dpi", 100, "--width", width, "--font-size",
+                8).returncode == 0
     assert abs(matplotlib.image.imread(tmp_path / "a.png").shape[1] - 100 * inches) <= 1
 
 
@@ -38,7 +40,8 @@ def test_a_page_for_a_talk_is_a_larger_page(made_file):
     """Letters twice as large on a page twice as wide: lines, dots and panels are twice as large too."""
     usual, talk = (kapitza.Result(made_file).plot(width=f"{86 * scale}mm", font_size=8 * scale) for scale in (1, 2))
     sizes = [(line.get_markersize(), line.get_markeredgewidth()) for line in usual.axes[0].lines]
-    assert sizes and np.allclose([(line.get_markersize(), line.get_markeredgewidth()) for line in talk.axes[0].lines], 2 * np.array(sizes))
+    assert sizes and np.allclose([(line.get_markersize(), line.get_markeredgewidth()) for line in talk.axes[0].lines],
+                                 2 * np.array(sizes))
     legend = talk.legends[0].get_window_extent()
     assert talk.axes[0].get_position().width > 0.7 and 0 <= legend.x0 < legend.x1 <= talk.bbox.width
 
@@ -49,7 +52,8 @@ def test_colours_by_name(made_file, tmp_path):
     figure = result.plot(colours=tmp_path / "mine.yaml", no_dots=True)
     image, labels = figure.axes[0].images[0].get_array(), result.labels().values
     assert np.allclose(image[labels == 1], to_rgb("#010203")) and np.allclose(image[labels == 4], to_rgb("teal"))
-    for text, said in (("inverted: reddish", "is not a colour"), ("[1]", "contains no colours"), ("a: [", "cannot be read")):
+    for text, said in (("inverted: reddish", "is not a colour"), ("[1]", "contains no colours"),
+                       ("a: [", "cannot be read")):
         (tmp_path / "bad.yaml").write_text(text)
         done = plot("basin", made_file, "--colours", tmp_path / "bad.yaml")
         assert done.returncode == 2 and said in done.stderr
@@ -61,7 +65,8 @@ def test_pages_that_are_none(made_file, words):
 
 
 def test_frequencies_are_drawn_where_stability_was_asked():
-    """A grid over k tells nothing of frequencies between its columns: the nearest one said "both stable" at zero drive."""
+    """A grid over k tells nothing of frequencies between its columns: the nearest one said "both stable" at zero
+    drive."""
     k = np.linspace(-0.25, 0.25, 4001)
     down, inverted = columns_of_both(k)
     assert np.allclose(k[down], -k[inverted], atol=1e-12) and (np.diff(k[down]) < 0).all() and k[down][-1] > 0
@@ -96,6 +101,8 @@ def test_crafted_texts(made_file, tmp_path):
 def test_a_crash_of_the_library_is_one_line():
     """What damaged bytes do to HDF5 now and then: the command says so in one line."""
     code = ("import os, signal, sys\nfrom kapitza.exit_status import run_apart\n"
-            "run_apart(lambda: (print('free(): invalid pointer', file=sys.stderr), os.kill(os.getpid(), signal.SIGABRT)))")
+            "run_apart(lambda: (print('free(): invalid pointer', file=sys.stderr), os.kill(os.getpid(), "
+            "signal.SIGABRT)))")
     done = subprocess.run([sys.executable, "-c", code], env={}, capture_output=True, text=True)
-    assert done.returncode == 1 and done.stderr == "kapitza: error: the file is damaged: reading it crashed the HDF5 library\n"
+    assert done.returncode == 1
+    assert done.stderr == "kapitza: error: the file is damaged: reading it crashed the HDF5 library\n"

@@ -16,7 +16,8 @@ ORBITS = {
     "rotation": (BLACKBURN, {"start": {"theta": 3.0164225972238, "velocity": 1.0688105148992}, "closed": True}),
     "rest": (BLACKBURN, {"start": {"theta": 0, "velocity": 0}, "closed": True}),
     "long": (BLACKBURN, {"start": {"theta": 3, "velocity": 0.1}, "periods": 1500}),
-    "closed and long": (BLACKBURN, {"start": {"theta": 0.1551784805487, "velocity": 0.29665394403367}, "closed": True, "periods": 600}),
+    "closed and long": (BLACKBURN, {"start": {"theta": 0.1551784805487, "velocity": 0.29665394403367}, "closed": True,
+                                    "periods": 600}),
     "open": (BLACKBURN, {"start": {"theta": 3, "velocity": 0.1}, "periods": 50}),
     "chaotic": ({"k": 0.25, "damping": 0.05, "m": 0.5}, {"start": {"theta": 1, "velocity": 0.2}, "periods": 100}),
     "slow": (BLACKBURN, {"start": {"theta": 3, "velocity": 0}, "periods": 50, "model": "effective"}),
@@ -32,7 +33,8 @@ def files(kapitza, tmp_path_factory):
     """A result file of every kind of orbit."""
     folder = tmp_path_factory.mktemp("orbits")
     for name, (pendulum, orbit) in ORBITS.items():
-        (folder / f"{name}.yaml").write_text(json.dumps({"title": f"A {name} orbit", "pendulum": pendulum, "orbit": orbit}))
+        (folder / f"{name}.yaml").write_text(json.dumps({"title": f"A {name} orbit", "pendulum": pendulum,
+                                                         "orbit": orbit}))
         kapitza("run", folder / f"{name}.yaml", "-o", folder / f"{name}.h5")
     return folder
 
@@ -41,7 +43,8 @@ def plot(*arguments):
     return plot_kind("orbit", *arguments)
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.extensive] * (name not in COMMON)) for name in ORBITS])
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.extensive] * (name not in COMMON))
+                                  for name in ORBITS])
 def test_every_orbit_is_drawn(files, tmp_path, name):
     done = plot(files / f"{name}.h5", "-o", tmp_path / "out.png", "--dpi", 100)
     assert (done.returncode, done.stderr) == (0, "")
@@ -53,7 +56,8 @@ def test_every_orbit_is_drawn(files, tmp_path, name):
 def test_the_picture_says_what_the_file_holds(files, tmp_path):
     assert plot(files / "nodding.h5", "-o", tmp_path / "out.svg").returncode == 0
     text = (tmp_path / "out.svg").read_text()
-    for words in ("A nodding orbit", "down 6-nodding", "period 6", "line 1/6", "1/6", "strobe points", "angle from down (deg)"):
+    for words in ("A nodding orbit", "down 6-nodding", "period 6", "line 1/6", "1/6", "strobe points",
+                  "angle from down (deg)"):
         assert words in text, words
 
 
@@ -62,7 +66,8 @@ def axes_of(files, monkeypatch):
     """axes_of(name, *options): the panels of the picture, by name, with what --last printed in the title line."""
     def call(name, *options):
         kept = {}
-        monkeypatch.setattr(orbit_plot, "lay_out", lambda panels: kept.update(zip(("figure", "axes"), lay_out(panels), strict=True))
+        monkeypatch.setattr(orbit_plot, "lay_out",
+                            lambda panels: kept.update(zip(("figure", "axes"), lay_out(panels), strict=True))
                             or (kept["figure"], kept["axes"]))
         monkeypatch.setattr(style, "save", lambda figure, output, dpi: figure.draw_without_rendering())
         done = plot(files / f"{name}.h5", *options)
@@ -82,7 +87,8 @@ def test_rounding_noise_is_no_motion(axes_of, name, options):
     low, high = axes["spectrum"].get_ylim()
     assert low < high
     if name == "rest":
-        assert axes["spectrum"].get_yscale() == "linear" and not axes["spectrum"].lines and not axes["spectrum"].collections
+        assert axes["spectrum"].get_yscale() == "linear" and not axes["spectrum"].lines
+        assert not axes["spectrum"].collections
 
 
 @pytest.mark.extensive
@@ -114,7 +120,8 @@ def test_open_records_say_what_they_are(files, tmp_path, name, words):
 
 def test_what_cannot_be_drawn(made_file, tmp_path):
     done = plot(made_file, "-o", tmp_path / "out.png")
-    assert (done.returncode, done.stderr) == (1, f"kapitza: error: {made_file}: holds no orbit (studies in it: attractors, basin)\n")
+    assert (done.returncode,
+            done.stderr) == (1, f"kapitza: error: {made_file}: holds no orbit (studies in it: attractors, basin)\n")
     assert plot(made_file, "--panels", "tiem").returncode == 2
     assert plot(made_file, "-o", "out.gif").returncode == 2
     for last in ("0", "-3", "nan", "long"):

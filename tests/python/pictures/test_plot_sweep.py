@@ -44,7 +44,8 @@ def test_fractions_show_intervals_and_name_every_band(swept):
         assert any(style.name_text(sweep["branch_name"].values[branch]) in name for name in names)
     assert len(set(names)) == len(names) and "95 % interval of a share" in names
     rest = share[:, ~large].sum(axis=1).max()
-    assert (rest > 0) == any(name.startswith(f"{(~large).sum()} smaller ones (≤ {style.share_text(rest)})") for name in names)
+    assert (rest > 0) == any(name.startswith(f"{(~large).sum()} smaller ones (≤ {style.share_text(rest)})")
+                             for name in names)
     (line,) = bars[0].lines[2]
     segments = np.array([segment for segment in line.get_segments() if len(segment)])
     first = next(branch for branch in stack_order(sweep) if large[branch])

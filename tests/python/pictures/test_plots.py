@@ -1,4 +1,5 @@
-"""The plotting script: every mode draws, draws what the file says, and files that cannot be used are refused in one line."""
+"""The plotting script: every mode draws, draws what the file says, and files that cannot be used are refused in one
+line."""
 
 import subprocess
 import sys
@@ -36,7 +37,8 @@ def test_the_scripts_draw_kinds_that_exist():
 
 
 @pytest.mark.parametrize("options", with_extensive(
-    ["--shade --centre inverted --no-legend", "--quantity settling_time", "--quantity evidence", "--attractor inverted"],
+    ["--shade --centre inverted --no-legend", "--quantity settling_time", "--quantity evidence",
+     "--attractor inverted"],
     ["", "--attractor 2"]))
 def test_every_mode_draws(made_file, tmp_path, options):
     done = plot(made_file, "-o", tmp_path / "out.png", "--dpi", 100, *options.split())
@@ -62,7 +64,8 @@ def test_the_legend_gives_names_and_shares_and_the_axis_degrees(made_file, tmp_p
     share = style.share_text(np.mean(labels == 4))
     assert "rotation +1/1" in text and "not settled" in text and share in text
     assert "inverted 3-nodding (2)" in text and "inverted 3-nodding (3)" in text and "rotation +1/1 (" not in text
-    assert all(f">{tick}°<" in text for tick in ("−180", "−90", "0", "90", "180")) and "π" not in text and "(rad)" not in text
+    assert all(f">{tick}°<" in text for tick in ("−180", "−90", "0", "90",
+                                                 "180")) and "π" not in text and "(rad)" not in text
 
 
 def test_black_and_white_draws_just_that_basin(made_file):
@@ -77,7 +80,8 @@ def test_black_and_white_draws_just_that_basin(made_file):
 
 
 @pytest.mark.parametrize("title, suffix", with_extensive(
-    [(r"$\frac{1}$ 100 % of $m and $k, \$ 倒立摆 🎈", "svg")], [(r"$\frac{1}$", "png"), ("倒立摆 🎈", "png"), ("倒立摆 🎈", "pdf")]))
+    [(r"$\frac{1}$ 100 % of $m and $k, \$ 倒立摆 🎈", "svg")],
+    [(r"$\frac{1}$", "png"), ("倒立摆 🎈", "png"), ("倒立摆 🎈", "pdf")]))
 def test_a_title_is_plain_text(made_file, tmp_path, title, suffix):
     with h5py.File(made_file, "r+") as file:
         file.attrs["title"] = title
@@ -98,7 +102,8 @@ def pixels(made_file, colour, *options):
 @pytest.mark.extensive
 @pytest.mark.parametrize("cells", [1])
 def test_dots_never_cover_a_small_basin(made_file, cells):
-    """The basin of a rotation is a few cells around its strobe point, most of which a dot of the usual size would hide."""
+    """The basin of a rotation is a few cells around its strobe point, most of which a dot of the usual size would
+    hide."""
     with h5py.File(made_file, "r+") as file:
         distance = np.hypot(file["basin/theta"][:] - 3.0, file["basin/velocity"][:][:, None] - 1.1)
         labels = np.zeros(distance.shape, "i2")
@@ -173,7 +178,8 @@ def craft(file, how):
     elif how == "infinite cells":
         replace(file, "basin/attractor", shape=(10**6, 10**5), dtype="i2", chunks=(1000, 1000))
     elif how == "external data":
-        replace(file, "basin/attractor", shape=labels.shape, dtype="i2", external=[("/etc/passwd", 0, h5py.h5f.UNLIMITED)])
+        replace(file, "basin/attractor", shape=labels.shape, dtype="i2",
+                external=[("/etc/passwd", 0, h5py.h5f.UNLIMITED)])
     elif how == "external link":
         del file["basin/attractor"]
         file["basin/attractor"] = h5py.ExternalLink("/tmp/other.h5", "/data")

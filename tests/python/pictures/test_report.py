@@ -75,15 +75,16 @@ def test_words_of_a_scene_are_no_html(small_result, tmp_path):
 
 @pytest.mark.extensive
 def test_a_result_without_a_grid_has_its_own_pictures(model):
-    result = model({"k": 1 / 121, "damping": 1 / 55, "m": 0.3}, orbit={"start": {"theta": 3, "velocity": 0}, "periods": 20},
-                   potential={"drive_amplitudes": [0.3]})
+    result = model({"k": 1 / 121, "damping": 1 / 55, "m": 0.3},
+                   orbit={"start": {"theta": 3, "velocity": 0}, "periods": 20}, potential={"drive_amplitudes": [0.3]})
     page = result.path.with_suffix(".html")
     assert write_report(result.path, "-o", page).returncode == 0
     assert page.read_text().count("data:image/png") == 2 and "<h2>Attractors" not in page.read_text()
 
 
 @pytest.mark.parametrize(("arguments", "status", "message"), [
-    (["nothing.h5"], 1, "kapitza: error: nothing.h5: no such file"), (["README.md"], 1, "kapitza: error: README.md: not an HDF5 file"),
+    (["nothing.h5"], 1, "kapitza: error: nothing.h5: no such file"),
+    (["README.md"], 1, "kapitza: error: README.md: not an HDF5 file"),
     (["README.md", "-o", "x.pdf"], 2, "must end in .html"),
 ])
 def test_what_cannot_be_reported_is_said(arguments, status, message):
@@ -95,6 +96,8 @@ def test_what_cannot_be_reported_is_said(arguments, status, message):
 def test_it_opens_in_a_browser_from_the_file_system(report, tmp_path):
     with browser(tmp_path, "1140,1400") as driver:
         driver.get(report.as_uri())
-        widths = driver.execute_script("return [...document.images].map((image) => image.complete && image.naturalWidth)")
+        widths = driver.execute_script(
+            "return [...document.images].map((image) => image.complete && image.naturalWidth)")
         assert len(widths) == 2 and all(width > 500 for width in widths) and "small look" in driver.title
-        assert [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE" and "favicon" not in entry["message"]] == []
+        assert [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"
+                and "favicon" not in entry["message"]] == []

@@ -1,4 +1,5 @@
-"""Pictures in the units of a laboratory: what a tick says is the value of its place in degrees, seconds, rad/s or Hz."""
+"""Pictures in the units of a laboratory: what a tick says is the value of its place in degrees, seconds, rad/s or
+Hz."""
 
 import re
 from types import SimpleNamespace
@@ -14,13 +15,15 @@ from kapitza.plots import basin, chart, orbit, potential, sweep
 from kapitza.plots.units import group_beside
 from kapitza.report.page import report
 
-SI = {"mass": 0.1, "radius": 0.2, "inertia": 0.004, "friction": 0.002, "gravity": 9.81, "pivot_amplitude": 0.06, "frequency": 12.25}
+SI = {"mass": 0.1, "radius": 0.2, "inertia": 0.004, "friction": 0.002, "gravity": 9.81, "pivot_amplitude": 0.06,
+      "frequency": 12.25}
 OMEGA = 2 * np.pi * 12.25
 
 
 @pytest.fixture(scope="module")
 def result(model):
-    return model(SI, basin={"theta": {"count": 12}, "velocity": {"min": -2, "max": 2, "count": 10}, "attractors": {"starts": 64}},
+    return model(SI, basin={"theta": {"count": 12}, "velocity": {"min": -2, "max": 2, "count": 10},
+                            "attractors": {"starts": 64}},
                  orbit={"start": {"theta": 2.9, "velocity": 0}, "periods": 30}, potential={"drive_amplitudes": [0.3]})
 
 
@@ -79,7 +82,8 @@ def test_times_in_seconds(result):
 
 @pytest.mark.extensive
 def test_an_orbit_in_seconds_and_hertz(result):
-    drive, lab = ({panel.get_label(): panel for panel in page(orbit, result, degrees=si, si=si).axes} for si in (False, True))
+    drive, lab = ({panel.get_label(): panel for panel in page(orbit, result, degrees=si, si=si).axes}
+                  for si in (False, True))
     for name, axis, label, factor in (("time", "x", "time (s)", 1 / 12.25), ("phase", "y", "(rad/s)", OMEGA),
                                       ("spectrum", "x", "(Hz)", 12.25), ("spectrum", "y", "(deg)", 180 / np.pi)):
         interval = getattr(drive[name], f"{axis}axis").get_view_interval()
@@ -103,14 +107,16 @@ def test_groups_say_their_units(result):
     plain, si = result.group("attractors"), result.group("attractors", si=True, degrees=True)
     assert si["strobe_velocity"].values == pytest.approx(OMEGA * plain["strobe_velocity"].values, nan_ok=True)
     assert si["strobe_theta"].attrs["units"] == "degree" and si["strobe_velocity"].attrs["units"] == "rad s-1"
-    assert si["period"].equals(plain["period"]) and si["lyapunov"].values == pytest.approx(12.25 * plain["lyapunov"].values, nan_ok=True)
+    assert si["period"].equals(plain["period"])
+    assert si["lyapunov"].values == pytest.approx(12.25 * plain["lyapunov"].values, nan_ok=True)
     labels = result.labels(si=True)
     assert labels["velocity"].attrs["units"] == "rad s-1" and labels["theta"].attrs["units"] == "rad"
     assert labels["velocity"].values == pytest.approx(OMEGA * result.labels()["velocity"].values)
 
 
 def test_what_people_write_behind_a_number():
-    assert [units.angle(text) for text in ("175 deg", "175°", "pi/2", "-3 pi/4", "π", "0.5pi", "2.5", 2.5)] == pytest.approx(
+    assert [units.angle(text) for text in ("175 deg", "175°", "pi/2", "-3 pi/4", "π", "0.5pi", "2.5",
+                                           2.5)] == pytest.approx(
         [np.radians(175), np.radians(175), np.pi / 2, -3 * np.pi / 4, np.pi, np.pi / 2, 2.5, 2.5], rel=1e-15)
     assert units.velocity("3 rad/s", 60) == 0.05 and units.velocity("90 deg/s", 1) == pytest.approx(np.pi / 2)
     for wrong in ("up", "3 rad/s"):
@@ -122,14 +128,17 @@ def test_what_people_write_behind_a_number():
 
 def test_the_explorer_keeps_units_that_are_written():
     """With or without a blank before the unit; what has none is as the program says."""
-    start = Start("pendulum: {length: 20cm, frequency: 50 Hz, amplitude: 8 mm, quality_factor: 20, tilt: pi/90}", is_text=True)
+    start = Start("pendulum: {length: 20cm, frequency: 50 Hz, amplitude: 8 mm, quality_factor: 20, tilt: pi/90}",
+                  is_text=True)
     assert start.with_units() == {"length": "20cm", "frequency": "50 Hz", "amplitude": "8 mm"}
-    assert units.quantity("50Hz", units.HERTZ) == 50 and units.written_frequency({"frequency": "3000rpm"}) == pytest.approx(100 * np.pi)
+    assert units.quantity("50Hz", units.HERTZ) == 50
+    assert units.written_frequency({"frequency": "3000rpm"}) == pytest.approx(100 * np.pi)
 
 
 def test_the_footer_says_an_amplitude_in_mm():
     """As the program's messages do; a length in the largest unit of which it is at least one."""
-    found = units.si_parameters({"length": 0.2, "pivot_frequency": 100 * np.pi, "pivot_amplitude": 0.012, "quality_factor": 10})
+    found = units.si_parameters({"length": 0.2, "pivot_frequency": 100 * np.pi, "pivot_amplitude": 0.012,
+                                 "quality_factor": 10})
     assert list(found.values()) == ["length 20 cm", "50 Hz", "amplitude 12 mm", "Q = 10"]
 
 
@@ -146,13 +155,15 @@ STROBE = {"count": 2, "measure": ["strobe"], "transient": 1, "samples": 1}
 ])
 def test_a_sweep_keeps_the_unit_that_is_written(key, ends, unit, written, stored):
     """In the text of the run, and on the axis of its picture; the file has units of the key."""
-    found = kapitza.run({"pendulum": ROD, "sweep": STROBE | {"parameter": key, "min": ends[0], "max": ends[1]}}, progress=False)
+    found = kapitza.run({"pendulum": ROD, "sweep": STROBE | {"parameter": key, "min": ends[0], "max": ends[1]}},
+                        progress=False)
     assert f"sweep of {key} in {unit}, 2 values from {written[0]:g} to {written[1]:g}" in found.summary
     assert found.group("sweep")["value"].values == pytest.approx(stored, rel=1e-15)
     value = found.group("sweep", written=True)["value"]
     assert value.values == pytest.approx(written, rel=1e-15) and value.attrs["units"] == unit
     figure = page(sweep, found)
-    assert figure.axes[-1].get_xlabel() == f"{key} ({unit})" and figure.axes[-1].get_xlim() == pytest.approx(tuple(written))
+    assert figure.axes[-1].get_xlabel() == f"{key} ({unit})"
+    assert figure.axes[-1].get_xlim() == pytest.approx(tuple(written))
 
 
 def test_a_plane_keeps_the_units_that_are_written():
@@ -162,10 +173,13 @@ def test_a_plane_keeps_the_units_that_are_written():
             "measure": ["ends"], "ends": {"theta": ["170°"], "max_periods": 3}}
     found = kapitza.run({"pendulum": ROD, "sweep": plan}, progress=False)
     axes = page(chart, found).axes[0]
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("frequency (Hz)", "amplitude (mm)") and axes.get_ylim() == pytest.approx((2, 8))
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("frequency (Hz)",
+                                                      "amplitude (mm)") and axes.get_ylim() == pytest.approx((2, 8))
     drawn, scale = found.group("plane", written=True), {"x": 60.0, "y": 0.01}
-    atlas = xarray.Dataset({which: ("point", [0.3]) for which in "xy"}, attrs={f"{which}_written_scale": 9.0 for which in "xy"})
-    drawn.attrs |= {f"{which}_written_{name}": value for which in "xy" for name, value in (("scale", scale[which]), ("units", "u"))}
+    atlas = xarray.Dataset({which: ("point", [0.3]) for which in "xy"},
+                           attrs={f"{which}_written_scale": 9.0 for which in "xy"})
+    drawn.attrs |= {f"{which}_written_{name}": value for which in "xy" for name,
+                    value in (("scale", scale[which]), ("units", "u"))}
     beside = group_beside(SimpleNamespace(group=lambda _: atlas), "atlas", drawn)
     assert float(beside["x"][0]) == pytest.approx(0.005) and float(beside["y"][0]) == pytest.approx(30)
 
@@ -173,7 +187,8 @@ def test_a_plane_keeps_the_units_that_are_written():
 def test_along_a_frequency_every_value_has_its_own_second():
     """One period lasts 1/50 s at 50 Hz and 1/100 s at 100 Hz."""
     periods = {"long_name": "return time, in drive periods", "units": "1"}
-    line = xarray.Dataset({"time": (("attractor", "value"), [[100.0, 100.0]], periods), "alone": ("attractor", [3.0], periods)},
+    line = xarray.Dataset({"time": (("attractor", "value"), [[100.0, 100.0]], periods),
+                           "alone": ("attractor", [3.0], periods)},
                           {"value": [50.0, 100.0]}, {"parameter": "frequency"})
     in_si = units.in_units(line, 2 * np.pi * 50)
     assert in_si["time"].values[0] == pytest.approx([2.0, 1.0]) and in_si["time"].attrs["units"] == "s"
@@ -189,18 +204,21 @@ def test_the_texts_of_a_run_are_in_si(undrawn):
     line = re.search(r"at (\d+)/(\d+) of the drive frequency \(([\d.]+) Hz\)", found.summary)
     assert float(line[3]) == pytest.approx(50 * int(line[1]) / int(line[2]), rel=1e-3)
     time = found.group("measures", si=True)["return_time"]
-    assert re.search(rf"  return_time +{time.values[0]:.6g} .* s\n  reactivity +[\d. ]+\n", found.summary) and time.attrs["units"] == "s"
+    assert re.search(rf"  return_time +{time.values[0]:.6g} .* s\n  reactivity +[\d. ]+\n",
+                     found.summary) and time.attrs["units"] == "s"
     most = int(re.search(r"settled? within (\d+) drive periods", found.summary)[1])
     assert f"{most} drive periods ({most / 50:.4g} s)." in found.summary
     text = report(found)
-    assert f"{time.values[0]:.4g} s" in text and "Lyapunov exponent (1/s)" in text and "length 20 cm, 50 Hz, amplitude 8 mm" in text
+    assert f"{time.values[0]:.4g} s" in text and "Lyapunov exponent (1/s)" in text
+    assert "length 20 cm, 50 Hz, amplitude 8 mm" in text
 
 
 @pytest.mark.extensive
 def test_starts_are_looked_up(result, small_result):
     """The angle is wrapped; outside the window there is no answer. `labels().sel(..., method="nearest")` clamps."""
     again = result.at(["190 deg", "-170 deg", np.radians(190) - 20 * np.pi], 0.1)
-    assert len(again) == 3 and again["attractor"].nunique() == 1 and again["theta"].values == pytest.approx(np.radians(-170))
+    assert len(again) == 3 and again["attractor"].nunique() == 1
+    assert again["theta"].values == pytest.approx(np.radians(-170))
     one = result.at("190 deg", 0.1)
     assert one["name"] == again["name"][0]
     assert one["attractor"] == result.labels().sel(theta=np.radians(-170), velocity=0.1, method="nearest").item()

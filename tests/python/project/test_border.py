@@ -11,18 +11,21 @@ HEADERS = ROOT / "include" / "kapitza"
 FORTRAN = sorted(SOURCES.rglob("*.f90"))
 
 # The same number, by its name in C and by the one that gfortran takes.
-KINDS = {"int32_t": "int", "int64_t": "long", "uint64_t": "long", "uint8_t": "signed char", "int16_t": "short", "__float128": "float128",
-         "kz_status": "int", "kz_stepper": "int", "kz_precision": "int"}
+KINDS = {"int32_t": "int", "int64_t": "long", "uint64_t": "long", "uint8_t": "signed char", "int16_t": "short",
+         "__float128": "float128", "kz_status": "int", "kz_stepper": "int", "kz_precision": "int"}
 
 
 def without_comments(text):
-    return re.sub(r"/\*.*?\*/", " ", text, flags=re.DOTALL).replace("long double", "long_double")  # as gfortran writes it
+    # As gfortran writes it
+    return re.sub(r"/\*.*?\*/", " ", text, flags=re.DOTALL).replace("long double", "long_double")
 
 
 def declared(text):
-    """{function: (result, [parameter types])} of the prototypes and definitions in C text; a type is (const, name, pointer)."""
+    """{function: (result, [parameter types])} of the prototypes and definitions in C text; a type is (const, name,
+    pointer)."""
     found = {}
-    for result, name, parameters in re.findall(r"^((?:const )?\w+[ *]+)(kz_\w+) ?\(([^()]*)\)[^;{]*[;{]", text, re.MULTILINE):
+    for result, name, parameters in re.findall(r"^((?:const )?\w+[ *]+)(kz_\w+) ?\(([^()]*)\)[^;{]*[;{]", text,
+                                               re.MULTILINE):
         types = [] if parameters.strip() in ("", "void") else [type_of(part) for part in parameters.split(",")]
         found[name] = (type_of(result + " it"), types)
     return found
@@ -39,7 +42,8 @@ def type_of(declaration):
 def generated(path, folder):
     """What gfortran says of a file's bind(C) entries."""
     done = subprocess.run(["gfortran", "-cpp", "-ffree-line-length-none", "-fsyntax-only", "-fc-prototypes",
-                           f"-I{PROGRAM.parent / 'modules'}", f"-J{folder}", f"-I{path.parent}", f"-I{ROOT / 'src' / 'kernel'}", str(path)],
+                           f"-I{PROGRAM.parent / 'modules'}", f"-J{folder}", f"-I{path.parent}",
+                           f"-I{ROOT / 'src' / 'kernel'}", str(path)],
                           capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return without_comments(done.stdout)
@@ -83,7 +87,8 @@ def test_c_structures_are_the_fortran_types(entries):
     functions_in_c = declared("\n".join(sources.values()))
     met, types = set(), {}
     for text in entries.values():
-        types |= {name: body for body, name in re.findall(r"^typedef struct \w+ \{(.*?)\} (\w+);", text, re.DOTALL | re.MULTILINE)}
+        types |= {name: body for body, name in re.findall(r"^typedef struct \w+ \{(.*?)\} (\w+);", text,
+                                                          re.DOTALL | re.MULTILINE)}
         for name, (_, parameters) in declared(text).items():
             for one, other in zip(parameters, functions_in_c.get(name, (None, []))[1], strict=False):
                 agrees(one, other, met)
@@ -91,16 +96,19 @@ def test_c_structures_are_the_fortran_types(entries):
     assert types.keys() == {fortran for fortran, _ in met} | members
     headers = [f'#include "kapitza/{path.name}"' for path in sorted(HEADERS.glob("dynamics*.h"))]
     program = ["#include <stddef.h>", *headers, '#include "vector/vector.h"',
-               "typedef _Float128 float128;", *(f"typedef struct {{{types[name]}}} {name};" for name in sorted(members))]
+               "typedef _Float128 float128;",
+               *(f"typedef struct {{{types[name]}}} {name};" for name in sorted(members))]
     for path, text in sources.items():  # structures that only one C file needs
         if path.suffix == ".c" and any(f"}} {c};" in text for _, c in met):
             program += re.findall(r"^enum \{[^}]*\};|^typedef struct \{[^}]*\} kz_\w+;", text, re.MULTILINE)
     for fortran, c in sorted(met):
         program.append(f"typedef struct {{{types[fortran]}}} {fortran};")
         program.append(f'_Static_assert(sizeof({fortran}) == sizeof({c}), "size of {c}");')
-        for field in re.findall(r"^ *(?!float128)(?:signed )?\w+ (\w+)", types[fortran], re.MULTILINE):  # C keeps quads as bytes
+        # C keeps quads as bytes
+        for field in re.findall(r"^ *(?!float128)(?:signed )?\w+ (\w+)", types[fortran], re.MULTILINE):
             program.append(f'_Static_assert(offsetof({fortran}, {field}) == offsetof({c}, {field}), "{c}.{field}");')
-            program.append(f'_Static_assert(sizeof((({fortran} *)0)->{field}) == sizeof((({c} *)0)->{field}), "size of {c}.{field}");')
+            program.append(f'_Static_assert(sizeof((({fortran} *)0)->{field}) == sizeof((({c} *)0)->{field}), "size '
+                           f'of {c}.{field}");')
     compiler = ["cc", "-x", "c", "-fsyntax-only", f"-I{ROOT / 'include'}", f"-I{SOURCES / 'kernel'}", "-"]
     done = subprocess.run(compiler, input="\n".join(program) + "\n", capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -110,7 +118,8 @@ def test_c_structures_are_the_fortran_types(entries):
 
 # (Fortran module, its name, name in C)
 SHARED = [("kz_vector_map", "WIDTH", "KZ_LANES"),
-          *(("kz_labels_levels", f"LEVEL_{name}", f"KZ_LEVEL_{name}") for name in ("FINE", "PAIRS_16", "PAIRS_28", "QUAD")),
+          *(("kz_labels_levels", f"LEVEL_{name}", f"KZ_LEVEL_{name}")
+            for name in ("FINE", "PAIRS_16", "PAIRS_28", "QUAD")),
           ("kz_taylor_taylor", "TAYLOR_STEPS", "KZ_REFERENCE_STEPS"),
           ("kz_processed_stages", "TERMS", "TERMS"),
           ("kz_model_pendulum", "MOST_HARMONICS", "KZ_HARMONICS")]
@@ -120,11 +129,16 @@ def test_constants_are_the_same_in_c_and_fortran(tmp_path):
     """gfortran prints its values, and the C compiler compares them."""
     uses = [f"use {module}, only: v{i} => {name}" for i, (module, name, _) in enumerate(SHARED)]
     values = ", ".join(f"v{i}" for i in range(len(SHARED)))
-    (tmp_path / "values.f90").write_text("\n".join(["program values", *uses, f"print '(*(i0, :, \" \"))', {values}", "end program values"]))
-    subprocess.run(["gfortran", f"-I{PROGRAM.parent / 'modules'}", "values.f90", "-o", "values"], cwd=tmp_path, check=True)
+    (tmp_path / "values.f90").write_text("\n".join(["program values", *uses, f"print '(*(i0, :, \" \"))', {values}",
+                                                    "end program values"]))
+    subprocess.run(["gfortran", f"-I{PROGRAM.parent / 'modules'}", "values.f90", "-o", "values"], cwd=tmp_path,
+                   check=True)
     printed = subprocess.run([tmp_path / "values"], capture_output=True, text=True, check=True).stdout.split()
-    asserted = [f'_Static_assert({c} == {value}, "{name}");' for (_, name, c), value in zip(SHARED, printed, strict=True)]
-    program = "\n".join(['#include "kapitza/dynamics_labels.h"', '#include "splitting/processed/tangents.c"', *asserted, ""])
-    compiler = ["cc", "-x", "c", "-fsyntax-only", "-march=native", "-DKAPITZA_FUSED=1", f"-I{ROOT / 'include'}", f"-I{SOURCES / 'kernel'}"]
+    asserted = [f'_Static_assert({c} == {value}, "{name}");' for (_, name, c),
+                value in zip(SHARED, printed, strict=True)]
+    program = "\n".join(['#include "kapitza/dynamics_labels.h"', '#include "splitting/processed/tangents.c"', *asserted,
+                         ""])
+    compiler = ["cc", "-x", "c", "-fsyntax-only", "-march=native", "-DKAPITZA_FUSED=1", f"-I{ROOT / 'include'}",
+                f"-I{SOURCES / 'kernel'}"]
     done = subprocess.run([*compiler, "-"], input=program, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

@@ -46,7 +46,8 @@ def test_the_commands_of_a_page_work(clone, page, user_python):
         printed = done.stdout
 
 
-MESSAGES = re.findall(r"^\$ (kapitza .+)\n(.+)$", (ROOT / "docs" / "reference" / "messages.md").read_text(), re.MULTILINE)
+MESSAGES = re.findall(r"^\$ (kapitza .+)\n(.+)$", (ROOT / "docs" / "reference" / "messages.md").read_text(),
+                      re.MULTILINE)
 
 
 @pytest.mark.parametrize(("command", "message"), MESSAGES)

@@ -38,7 +38,8 @@ def test_links_lead_to_files(page):
 def test_the_list_of_changes_stays_short():
     """It had 98 kB, one release 169 entries."""
     text = (ROOT / "CHANGELOG.md").read_text()
-    assert len(text) <= 12_000 and len(re.findall(r"^## ", text, re.MULTILINE)) == len(re.findall(r"^\*\*Breaks\.", text, re.MULTILINE)) + 1
+    assert len(text) <= 12_000
+    assert len(re.findall(r"^## ", text, re.MULTILINE)) == len(re.findall(r"^\*\*Breaks\.", text, re.MULTILINE)) + 1
 
 
 FOLDERS = "tests|scripts|src|include|docs|benchmarks|packaging|python|scenes|web|cmake"
@@ -47,14 +48,17 @@ FOLDERS = "tests|scripts|src|include|docs|benchmarks|packaging|python|scenes|web
 def test_pages_name_only_what_exists():
     """Paths, tests in Python and names for `ctest -R`. Words in capitals stand for names."""
     tests = [path for path in (ROOT / "tests").rglob("*") if path.suffix in (".c", ".cmake")]
-    known = "".join(path.read_text() for path in tests if path.suffix == ".cmake") + " ".join(path.stem for path in tests)
+    known = "".join(path.read_text() for path in tests
+                    if path.suffix == ".cmake") + " ".join(path.stem for path in tests)
     missing = []
     for page in (ROOT / "README.md", ROOT / "CONTRIBUTING.md", *PAGES):
         text = page.read_text()
         paths = re.findall(rf"(?<![\w./<-])((?:{FOLDERS})/[\w./*-]*\w)", text)
         paths += [f"tests/python/*/{name}" for name in re.findall(r"(?<![/\w])test_\w+\.py", text)]
-        missing += [(page.name, name) for name in paths if not re.search(r"[A-Z]{4}", name) and not list(ROOT.glob(name))]
-        missing += [(page.name, name) for name in re.findall(r"ctest -R ([\w.]+)", text) if name.rsplit(".")[-1] not in known]
+        missing += [(page.name, name) for name in paths if not re.search(r"[A-Z]{4}", name)
+                    and not list(ROOT.glob(name))]
+        missing += [(page.name, name) for name in re.findall(r"ctest -R ([\w.]+)", text)
+                    if name.rsplit(".")[-1] not in known]
     assert missing == []
 
 
@@ -64,7 +68,8 @@ def site(tmp_path_factory):
     for module in ("sphinx", "myst_parser", "furo", "sphinx_copybutton"):
         pytest.importorskip(module, reason="scripts/requirements-docs.txt is not installed: the site is not made")
     folder = tmp_path_factory.mktemp("site")
-    command = [sys.executable, "-m", "sphinx", "--quiet", "--fail-on-warning", "-b", "html", ROOT / "docs", folder / "site"]
+    command = [sys.executable, "-m", "sphinx", "--quiet", "--fail-on-warning", "-b", "html", ROOT / "docs",
+               folder / "site"]
     done = subprocess.run([*command, "-d", folder / "doctrees"], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
     return folder / "site"

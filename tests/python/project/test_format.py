@@ -13,7 +13,8 @@ from conftest import ROOT
 from procedures import of_c, of_fortran
 from text_style import faults
 
-HOOKS = {hook["id"]: hook for hook in yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text())["repos"][0]["hooks"]}
+HOOKS = {hook["id"]: hook
+         for hook in yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text())["repos"][0]["hooks"]}
 ENDINGS = {"python": {".py"}, "javascript": {".js"}, "c": {".c", ".h"}, "markdown": {".md"}, "text": None}
 BINARY = {".gif", ".png", ".h5"}
 
@@ -24,7 +25,8 @@ def files(kind):
     if listed.returncode != 0:
         pytest.skip("needs the project's git repository")
     paths = [Path(name) for name in listed.stdout.split("\0") if name and (ROOT / name).is_file()]
-    return [path for path in paths if (path.suffix not in BINARY if ENDINGS[kind] is None else path.suffix in ENDINGS[kind])]
+    return [path for path in paths
+            if (path.suffix not in BINARY if ENDINGS[kind] is None else path.suffix in ENDINGS[kind])]
 
 
 @pytest.mark.parametrize("name", HOOKS)
@@ -35,12 +37,14 @@ def test_a_hook_finds_nothing(name):
     command = shlex.split(hook["entry"])
     if not ((ROOT / command[0]).exists() or shutil.which(command[0])):
         pytest.skip(f"needs {command[0]}, which Debian's node-typescript has")
-    done = subprocess.run([*command, *(names if hook.get("pass_filenames", True) else [])], cwd=ROOT, capture_output=True, text=True)
+    done = subprocess.run([*command, *(names if hook.get("pass_filenames", True) else [])], cwd=ROOT,
+                          capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
 @pytest.mark.parametrize("data, found", [
-    (b"", []), (b"a\n", []), (b"a\n\nb\n", []), (b"a", [(1, "must end in one line feed")]), (b"a\n\n", [(3, "must end in one line feed")]),
+    (b"", []), (b"a\n", []), (b"a\n\nb\n", []), (b"a", [(1, "must end in one line feed")]),
+    (b"a\n\n", [(3, "must end in one line feed")]),
     (b"a \nb\n", [(1, "ends in blanks")]), (b"a\r\n", [(1, "has a carriage return")]), (b"\ta\n", [(1, "has a tab")]),
     (b"a\n\xff\n", [(2, "is not UTF-8")]),
 ])
@@ -76,7 +80,8 @@ LARGER = {
     "src/kernel/splitting/processed/stages.c": {"kz_processed_kicks", "kz_processed_kicks_single"},
     "src/kernel/splitting/processed/stages.f90": {"run_stages", "run_single_stages", "run_tangents", "run_displaced"},
     "src/kernel/splitting/processed/tangents.c": {"move_tangents", "kz_processed_tangents", "kz_processed_displaced"},
-    "src/kernel/taylor/pairs.c": {"run_stages", "kz_pairs_stages"}, "src/kernel/taylor/pairs_table.f90": {"pairs_stages"},
+    "src/kernel/taylor/pairs.c": {"run_stages", "kz_pairs_stages"},
+    "src/kernel/taylor/pairs_table.f90": {"pairs_stages"},
     "src/library/api/labels.c": {"kapitza_labels"}, "src/library/api/motion.c": {"kapitza_orbit", "kapitza_manifold"},
     "src/study/live/engine.c": {"kz_engine_labels"}, "src/study/live/record.c": {"record_stretch"},
 }

@@ -27,14 +27,16 @@ def test_its_numbers_are_those_of_the_validation(page, words):
 
 def test_its_speed_is_that_of_the_benchmark():
     low, high = re.search(r"some (\d+) to (\d+) times .*\(\[benchmarks\]", PAPER.read_text()).groups()
-    measured = re.search(r"^\| direct \| (\d+) \(", (ROOT / "docs" / "validation" / "benchmarks.md").read_text(), re.MULTILINE)[1]
+    measured = re.search(r"^\| direct \| (\d+) \(", (ROOT / "docs" / "validation" / "benchmarks.md").read_text(),
+                         re.MULTILINE)[1]
     assert int(low) <= int(measured) <= int(high)
 
 
 @pytest.mark.extensive
 def test_the_page_is_made(tmp_path):
     pytest.importorskip("markdown_it", reason="scripts/requirements-docs.txt is not installed")
-    done = subprocess.run([sys.executable, ROOT / "docs" / "paper" / "build.py", tmp_path], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, ROOT / "docs" / "paper" / "build.py", tmp_path], capture_output=True,
+                          text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "<h2>Statement of need</h2>" in (tmp_path / "paper.html").read_text()
 

@@ -22,7 +22,8 @@ def power_of(path):
     """The power that a file belongs to; None = the core."""
     for name, lists in powers().items():
         folders = [SOURCES / folder for folder in lists["FOLDERS"]]
-        if any(path.is_relative_to(folder) for folder in folders) or path in [ROOT / file for file in lists.get("FILES", ())]:
+        if any(path.is_relative_to(folder) for folder in folders) or path in [ROOT / file
+                                                                              for file in lists.get("FILES", ())]:
             return name
     return None
 
@@ -40,7 +41,8 @@ def trespasses(pairs):
 @cache
 def symbols():
     """[(source, symbol, kind)] of all objects, kind as nm prints it."""
-    objects = [path for path in (PROGRAM.parent / "CMakeFiles").glob("kapitza_*.dir/src/**/*.o") if source_of(path).exists()]
+    objects = [path for path in (PROGRAM.parent / "CMakeFiles").glob("kapitza_*.dir/src/**/*.o")
+               if source_of(path).exists()]
     done = subprocess.run(["nm", "-A", "-P", *objects], capture_output=True, text=True, check=True)
     rows = [re.match(r"(.*\.o): (\S+) (\w)", line) for line in done.stdout.splitlines()]
     return [(source_of(Path(row[1])), row[2], row[3]) for row in rows if row]
@@ -55,7 +57,8 @@ def test_the_core_includes_no_power():
 
 
 def test_the_core_calls_no_power():
-    """But for the rows by which studies, commands and the like are registered: cmake writes their names into the core's tables."""
+    """But for the rows by which studies, commands and the like are registered: cmake writes their names into the core's
+    tables."""
     registered = {f"kz_{item}_{end}" for lists in powers().values() for kind, items in lists.items()
                   if kind not in ("FOLDERS", "FILES", "SCRIPT", "NEEDS", "BESIDE") for item in items
                   for end in ("study", "variables", "command")}
@@ -74,15 +77,18 @@ def core():
 
 
 @pytest.mark.parametrize("scene", with_extensive(["small", "blackburn-fig05", "blackburn-fig08"],
-                                                 ["blackburn-fig12", "butikov-fig01", "blackburn-walk", "tradeoff-fig12"]))
+                                                 ["blackburn-fig12", "butikov-fig01", "blackburn-walk",
+                                                  "tradeoff-fig12"]))
 def test_the_core_models_the_papers(core, tmp_path, scene):
     """Datasets are those of the whole program; what a clock says differs."""
     found = []
     for program in (core, PROGRAM):
-        done = subprocess.run([program, "run", ROOT / "scenes" / f"{scene}.yaml", "-o", tmp_path / f"{program.name}.h5"],
+        done = subprocess.run([program, "run", ROOT / "scenes" / f"{scene}.yaml", "-o",
+                               tmp_path / f"{program.name}.h5"],
                               capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
-        found.append({name: data for name, data in datasets(tmp_path / f"{program.name}.h5").items() if "seconds" not in name})
+        found.append({name: data for name, data in datasets(tmp_path / f"{program.name}.h5").items()
+                      if "seconds" not in name})
     assert found[0] == found[1]
 
 
@@ -95,12 +101,14 @@ def test_the_core_holds_no_symbol_of_a_power(core):
 
 @pytest.mark.parametrize(("words", "told"), [
     (["check", "small", "--set", "saddles={}"], "saddles: needs the power saddles, which this build leaves out"),
-    (["check", "small", "--set", "basin.proof=true"], "basin.proof: needs the power proof, which this build leaves out"),
+    (["check", "small", "--set", "basin.proof=true"],
+     "basin.proof: needs the power proof, which this build leaves out"),
     (["check", "small", "--set", "sweep={parameter: drive_amplitude, min: 0, max: 1, count: 2, measure: [share]}"],
      "other words need the power measures, which this build leaves out"),
     (["check", "small", "--set", "sweep={parameter: drive_amplitude, min: 0, max: 1, count: 2, measure: [ends]}"],
      "it needs the power ends, which this build leaves out"),
-    (["check", "small", "--set", "basin.start_phase=1"], "basin.start_phase: needs the power release, which this build leaves out"),
+    (["check", "small", "--set", "basin.start_phase=1"],
+     "basin.start_phase: needs the power release, which this build leaves out"),
     (["check", "small", "--set", "pendulum.ramp={key: damping, from: 1, periods: 2}"],
      "pendulum.ramp: needs the power release, which this build leaves out"),
     (["check", "small", "--set", "sweep={parameter: ramp.from, min: 0, max: 1, count: 2, measure: [attractors]}"],
@@ -118,7 +126,8 @@ def test_the_table_of_budgets_is_kept():
     """docs/develop/developer.md: a row for the core, each power and all; what takes more than its budget says why."""
     assert not LEDGER.faults()
     done = subprocess.run([sys.executable, ROOT / "scripts" / "ledger"], capture_output=True, text=True)
-    assert done.returncode == 0 and [line.split()[0] for line in done.stdout.splitlines()[1:]] == ["core", *powers(), "all"]
+    assert done.returncode == 0 and [line.split()[0]
+                                     for line in done.stdout.splitlines()[1:]] == ["core", *powers(), "all"]
 
 
 def test_every_line_is_counted_once():
@@ -127,14 +136,16 @@ def test_every_line_is_counted_once():
     for column, (folders, ends) in LEDGER.COLUMNS.items():
         texts = [path.read_text() for folder in folders for path in (ROOT / folder).rglob("*") if path.suffix in ends]
         parts = [amounts[column] for part, amounts in ledger.items() if part != "all"]
-        assert sum(parts) == ledger["all"][column] == sum(len(text.split()) if column == "words" else text.count("\n") for text in texts)
+        assert sum(parts) == ledger["all"][column] == sum(len(text.split()) if column == "words" else text.count("\n")
+                                                          for text in texts)
 
 
 def test_what_exceeds_its_budget_is_told(monkeypatch):
     measured, table = LEDGER.measured(), LEDGER.budgets()
     monkeypatch.setattr(LEDGER, "budgets", lambda: table | {"atlas": (table["atlas"][0] | {"src": 100}, "")})
     assert LEDGER.faults() == [f"atlas: {measured['atlas']['src']} src exceed the budget of 100; say why"]
-    monkeypatch.setattr(LEDGER, "budgets", lambda: table | {"atlas": (table["atlas"][0] | {"src": 100}, "Curves are long.")})
+    monkeypatch.setattr(LEDGER, "budgets",
+                        lambda: table | {"atlas": (table["atlas"][0] | {"src": 100}, "Curves are long.")})
     assert not LEDGER.faults()
     monkeypatch.setattr(LEDGER, "budgets", lambda: {part: row for part, row in table.items() if part != "atlas"})
     assert LEDGER.faults() == ["atlas is in one of power.cmake and developer.md"]

@@ -1,4 +1,5 @@
-"""The model of many ranks (benchmarks/scaling.py): cases with a known answer, and the rules that it shares with src/parallel."""
+"""The model of many ranks (benchmarks/scaling.py): cases with a known answer, and the rules that it shares with
+src/parallel."""
 
 import re
 import subprocess
@@ -53,6 +54,6 @@ def test_a_log_is_read(kapitza, tmp_path):
     kapitza("run", ROOT / "scenes" / "small.yaml", "--log", "log.jsonl", folder=tmp_path)
     run = Run.read(tmp_path / "log.jsonl")
     assert run.cells == 10_000 and run.take > 0 and [name for name, _ in run.stages][-1] == "file"
-    done = subprocess.run([sys.executable, ROOT / "benchmarks" / "scaling.py", "load", tmp_path / "log.jsonl"], capture_output=True,
-                          text=True)
+    done = subprocess.run([sys.executable, ROOT / "benchmarks" / "scaling.py", "load", tmp_path / "log.jsonl"],
+                          capture_output=True, text=True)
     assert list(map(float, done.stdout.split())) == pytest.approx(dict(run.stages)["cells 1"], abs=1e-6)

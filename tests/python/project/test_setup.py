@@ -29,7 +29,8 @@ def test_sourcing_leaves_the_options_of_the_shell():
 
 
 def test_what_fails_in_the_set_up_ends_the_script_that_needs_it(tmp_path):
-    """A package that cannot be installed: no mark that it was, and its status, although the build was tried beside it."""
+    """A package that cannot be installed: no mark that it was, and its status, although the build was tried beside
+    it."""
     (tmp_path / "scripts").mkdir()
     (tmp_path / ".venv" / "bin").mkdir(parents=True)
     (tmp_path / "scripts" / "setup").write_text((ROOT / "scripts" / "setup").read_text())
@@ -48,12 +49,15 @@ def test_what_fails_in_the_set_up_ends_the_script_that_needs_it(tmp_path):
     (["2 out of range", "2 out of range"], ["--resume", "--resume"]),
     (["75 stopped", "0"], ["--resume", "--resume"])])
 def test_quickstart_replaces_only_a_result_of_another_run(tmp_path, ends, calls):
-    """Status 2 is said for any bad input; only a result of another scene or program is replaced. mpirun and the program are stubs."""
+    """Status 2 is said for any bad input; only a result of another scene or program is replaced. mpirun and the program
+    are stubs."""
     (tmp_path / "scripts").mkdir()
     shutil.copy(ROOT / "scripts" / "quickstart", tmp_path / "scripts")
-    (tmp_path / "scripts" / "setup").write_text(f'cd {tmp_path}; PATH={tmp_path}:$PATH; say() {{ echo "$says: $*"; }}\n')
+    (tmp_path / "scripts"
+     / "setup").write_text(f'cd {tmp_path}; PATH={tmp_path}:$PATH; say() {{ echo "$says: $*"; }}\n')
     (tmp_path / "ends").write_text("".join(f"{end} \n" for end in ends))
-    (tmp_path / "mpirun").write_text('#!/bin/bash\necho "${!#}" >> calls\nread -r status words < <(sed -n "$(wc -l < calls)p" ends)\n'
+    (tmp_path / "mpirun").write_text(
+        '#!/bin/bash\necho "${!#}" >> calls\nread -r status words < <(sed -n "$(wc -l < calls)p" ends)\n'
                                      'echo "$words" >&2\nexit "$status"\n')
     (tmp_path / "build").mkdir()
     (tmp_path / "build" / "kapitza").write_text("#!/bin/sh\n: > picture\n")
@@ -127,8 +131,8 @@ def test_a_copied_or_moved_project_builds_its_own_sources(project):
 def test_set_up_makes_the_package_importable_wherever_the_project_is_moved(project):
     """In .venv, without variables, from any folder; the second set-up changes nothing."""
     def imported(folder):
-        done = subprocess.run([folder / ".venv" / "bin" / "python", "-c", "import kapitza; print(kapitza.__file__)"], cwd="/", env={},
-                              capture_output=True, text=True)
+        done = subprocess.run([folder / ".venv" / "bin" / "python", "-c", "import kapitza; print(kapitza.__file__)"],
+                              cwd="/", env={}, capture_output=True, text=True)
         return done.stdout.strip()
 
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", project / ".venv"], check=True)
@@ -151,7 +155,8 @@ def test_set_up_says_each_stage_with_its_time(project):
         (project / ".venv" / "bin" / name).chmod(0o755)
     first, second = (shell(project / "scripts" / "setup") for _ in range(2))
     lines = re.findall(r"^setup: \d+ min \d\d s: (.+)$", first.stdout, re.MULTILINE)
-    assert len(lines) == len(first.stdout.splitlines()) and "minutes on two cores" in lines[0] and "GB of disk" in lines[0]
+    assert len(lines) == len(first.stdout.splitlines()) and "minutes on two cores" in lines[0]
+    assert "GB of disk" in lines[0]
     assert {"configuring and building build", "build is built", "the Python packages are installed"} < set(lines)
     assert (first.returncode, second.returncode, second.stdout) == (0, 0, ""), first.stderr
 
@@ -177,7 +182,9 @@ def test_the_revision_is_never_that_of_a_repository_around_the_project(project):
 
 def test_commands_of_the_docs_name_the_python_that_has_the_packages():
     """The system's python3 lacks them."""
-    pages = [ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *(ROOT / "scenes").glob("*.yaml"), *(ROOT / "scripts").glob("*.py")]
-    calls = [(page.name, line) for page in pages for line in page.read_text().splitlines() if re.search(r"scripts/\w+\.py [-\w./*]+", line)]
+    pages = [ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *(ROOT / "scenes").glob("*.yaml"),
+             *(ROOT / "scripts").glob("*.py")]
+    calls = [(page.name, line) for page in pages for line in page.read_text().splitlines()
+             if re.search(r"scripts/\w+\.py [-\w./*]+", line)]
     assert calls
     assert not [call for call in calls if ".venv/bin/python scripts/" not in call[1]]

@@ -12,7 +12,8 @@ import pytest
 from conftest import PROGRAM, ROOT
 
 SMALL = ROOT / "scenes" / "small.yaml"
-FEW = ["--set", "basin.theta.count=9", "--set", "basin.velocity.count=9", "--set", "basin.icm={theta: 40, velocity: 40}"]
+FEW = ["--set", "basin.theta.count=9", "--set", "basin.velocity.count=9", "--set",
+       "basin.icm={theta: 40, velocity: 40}"]
 def run(words, folder, **more):
     """A run to its end."""
     return subprocess.run(list(map(str, words)), cwd=folder, capture_output=True, text=True, **more)
@@ -27,24 +28,29 @@ def test_a_small_stack_is_enough(tmp_path, method):
 
 def test_a_stack_that_is_too_small_is_refused(tmp_path):
     done = run(["bash", "-c", 'ulimit -s 500; exec mpirun -n 2 "$@"', "limited", PROGRAM, "run", SMALL, *FEW], tmp_path)
-    assert done.returncode == 2 and "ulimit -s 512" in done.stderr and done.stderr.count("kapitza: error") == 1, done.stderr
+    assert done.returncode == 2 and "ulimit -s 512" in done.stderr and done.stderr.count(
+        "kapitza: error") == 1, done.stderr
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("launcher, most", [([], 8), (["mpirun", "-n", "2"], 18)])  # mpirun itself needs more than a rank
+# Mpirun itself needs more than a rank
+@pytest.mark.parametrize("launcher, most", [([], 8), (["mpirun", "-n", "2"], 18)])
 def test_few_descriptors_are_refused(tmp_path, launcher, most):
     words = [*launcher, "bash", "-c", f'ulimit -n {most}; exec "$@"', "limited", PROGRAM, "run", SMALL, *FEW]
     done = run(words, tmp_path)
-    assert done.returncode == 2 and "ulimit -n 32" in done.stderr and done.stderr.count("kapitza: error") == 1, done.stderr
+    assert done.returncode == 2 and "ulimit -n 32" in done.stderr and done.stderr.count(
+        "kapitza: error") == 1, done.stderr
     assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("words", [[], ["rum"], ["run"], ["--nonsense"], ["--help"], ["run", "--help"], ["--version"],
                                    ["--completion", "bash"], ["--manual"], ["keys"]])
 def test_ranks_that_are_asked_for_different_things_end(tmp_path, words):
-    """A rank that only answered would leave the one that runs waiting for it in MPI_Init, and one that was refused said nothing."""
+    """A rank that only answered would leave the one that runs waiting for it in MPI_Init, and one that was refused said
+    nothing."""
     done = run(["mpirun", "-n", "1", PROGRAM, "run", SMALL, *FEW, ":", "-n", "1", PROGRAM, *words], tmp_path)
-    assert done.returncode == 2 and done.stderr.count("another command line") == 1 and not list(tmp_path.iterdir()), done.stderr
+    assert done.returncode == 2 and done.stderr.count("another command line") == 1 and not list(
+        tmp_path.iterdir()), done.stderr
     if words == ["keys"]:
         done = run(["mpirun", "-n", "2", PROGRAM, *words], tmp_path)
         assert done.returncode == 0 and done.stdout.startswith("# ") and done.stdout.count("`basin.max_periods`") == 1
@@ -52,10 +58,12 @@ def test_ranks_that_are_asked_for_different_things_end(tmp_path, words):
 
 @pytest.mark.parametrize("words", [["run", SMALL, *FEW, "-o", "x.h5"], ["check", SMALL]])
 def test_processes_of_a_launcher_that_the_mpi_does_not_know_are_refused(tmp_path, words):
-    """Each would be a run of its own. One process of such a job, and one that was started by hand, are runs of one rank."""
+    """Each would be a run of its own. One process of such a job, and one that was started by hand, are runs of one
+    rank."""
     for rank, said in (("0", 1), ("1", 0)):
         done = run([PROGRAM, *words], tmp_path, env=os.environ | {"PMI_RANK": rank, "PMI_SIZE": "2"})
-        assert done.returncode == 2 and done.stderr.count("a launcher of another MPI started 2 processes") == said, done.stderr
+        assert done.returncode == 2 and done.stderr.count(
+            "a launcher of another MPI started 2 processes") == said, done.stderr
     assert not list(tmp_path.iterdir())
     assert run([PROGRAM, *words], tmp_path, env=os.environ | {"PMI_RANK": "0", "PMI_SIZE": "1"}).returncode == 0
 

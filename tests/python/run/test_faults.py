@@ -1,5 +1,6 @@
-"""Failures of the whole program's environment: disks that fill or vanish, damaged checkpoints, memory that runs out, ranks that sleep or
-outnumber their tiles, kills. docs/validation/extremes.md says what is promised; tests/tools/kill_loop.py is the long version."""
+"""Failures of the whole program's environment: disks that fill or vanish, damaged checkpoints, memory that runs out,
+ranks that sleep or outnumber their tiles, kills. docs/validation/extremes.md says what is promised;
+tests/tools/kill_loop.py is the long version."""
 
 import os
 import random
@@ -46,7 +47,8 @@ def disk(tmp_path):
     def mount(options):
         folder = tmp_path / "disk"
         folder.mkdir()
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", folder], capture_output=True).returncode != 0:
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", folder],
+                          capture_output=True).returncode != 0:
             pytest.skip("mounting needs more rights than this user has")
         mounted.append(folder)
         return folder
@@ -119,7 +121,8 @@ def test_damaged_checkpoints_are_never_used(kapitza, tmp_path, undisturbed, stop
         for _ in range(3):
             data[draw.randrange(len(data))] ^= 1 << draw.randrange(8)
     cut = {"half": len(data) // 2, "one byte less": len(data) - 1, "head alone": 10, "empty": 0}.get(damage, len(data))
-    (tmp_path / "small.h5.checkpoint").write_bytes(data[:cut] + (b"\xa5" * 999 if damage == "noise at the end" else b""))
+    (tmp_path / "small.h5.checkpoint").write_bytes(data[:cut] + (b"\xa5" * 999 if damage == "noise at the end"
+                                                                 else b""))
     done = kapitza("run", SMALL, *SLOW, "--resume", ranks=2, folder=tmp_path, status=None)
     if done.returncode == 0:
         assert datasets(tmp_path / "small.h5") == undisturbed
@@ -184,7 +187,8 @@ def test_resume_of_a_complete_file_removes_its_own_checkpoint_alone(kapitza, tmp
 
 
 def test_an_error_is_told_before_any_rank_ends(kapitza, tmp_path):
-    """mpirun kills the others about a second after one rank has failed; rank 0, which speaks, may be slower than that."""
+    """mpirun kills the others about a second after one rank has failed; rank 0, which speaks, may be slower than
+    that."""
     (tmp_path / "small.h5").touch()
     done = kapitza("run", SMALL, folder=tmp_path, launcher=launched(2, "slow_end", REST=3), status=2)
     assert done.stderr.startswith("kapitza: error: small.h5: exists") and done.stderr.count("\n") == 1
@@ -213,7 +217,8 @@ def test_the_folder_changes_under_the_run(tmp_path, how):
     else:
         folder.rename(tmp_path / "elsewhere")
     _, errors = process.communicate()
-    assert process.returncode == 1 and errors.startswith("kapitza: error: folder/small.h5") and errors.count("\n") == 1, errors
+    assert process.returncode == 1 and errors.startswith("kapitza: error: folder/small.h5") and errors.count(
+        "\n") == 1, errors
     if how == "a file appears":
         assert (folder / "small.h5").read_text() == "mine" and (folder / "small.h5.checkpoint").exists()
     elif how == "the folder is renamed":
@@ -221,7 +226,8 @@ def test_the_folder_changes_under_the_run(tmp_path, how):
 
 
 def test_two_runs_into_one_file(tmp_path, undisturbed):
-    """The second waits for the first, and overwrites nothing: the same scene is done already, another one is refused."""
+    """The second waits for the first, and overwrites nothing: the same scene is done already, another one is
+    refused."""
     first = start("run", SMALL, *SLOW, folder=tmp_path)
     wait_for(lambda: grown(tmp_path / "small.h5.checkpoint"))
     same = start("run", SMALL, *SLOW, "--resume", folder=tmp_path, ranks=None)
@@ -232,7 +238,8 @@ def test_two_runs_into_one_file(tmp_path, undisturbed):
     assert datasets(tmp_path / "small.h5") == undisturbed
 
 
-@pytest.mark.parametrize("closed, status", [(">&-", 1), ("2>&-", 0), ("<&- >&- 2>&-", 1), (">/dev/full", 1), ("2>&1 | true", 0)])
+@pytest.mark.parametrize("closed, status", [(">&-", 1), ("2>&-", 0), ("<&- >&- 2>&-", 1), (">/dev/full", 1),
+                                            ("2>&1 | true", 0)])
 def test_streams_that_are_closed_or_full(kapitza, tmp_path, undisturbed, closed, status):
     """What is printed never lands in a file of the run, and nobody who reads the progress is no reason to stop."""
     words = " ".join(map(repr, map(str, [PROGRAM, "run", SMALL, "--progress", "always", *SLOW])))
@@ -243,7 +250,8 @@ def test_streams_that_are_closed_or_full(kapitza, tmp_path, undisturbed, closed,
 
 def test_the_environment_changes_no_byte(tmp_path, undisturbed):
     """Memory filled with noise, a decimal comma, other people's settings."""
-    noise = {"MALLOC_PERTURB_": "170", "LC_ALL": "de_DE.UTF-8", "LANG": "de_DE.UTF-8", "TZ": "Asia/Kolkata", "OMP_NUM_THREADS": "7",
+    noise = {"MALLOC_PERTURB_": "170", "LC_ALL": "de_DE.UTF-8", "LANG": "de_DE.UTF-8", "TZ": "Asia/Kolkata",
+             "OMP_NUM_THREADS": "7",
              "GFORTRAN_UNBUFFERED_ALL": "1", "HDF5_USE_FILE_LOCKING": "FALSE", "POSIXLY_CORRECT": "1"}
     words = [str(PROGRAM), "run", *SLOW, str(SMALL)]
     done = subprocess.run(words, cwd=tmp_path, env=os.environ | noise, capture_output=True, text=True)

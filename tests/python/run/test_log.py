@@ -14,7 +14,8 @@ def events(path):
 
 
 def test_a_log_tells_stages_and_the_end(kapitza, tmp_path):
-    done = kapitza("run", SMALL, "--set", "basin.method=icm", "--log", "log.jsonl", "--timings", ranks=2, folder=tmp_path)
+    done = kapitza("run", SMALL, "--set", "basin.method=icm", "--log", "log.jsonl", "--timings", ranks=2,
+                   folder=tmp_path)
     lines = events(tmp_path / "log.jsonl")
     assert lines[0]["event"] == "begin" and lines[0]["ranks"] == 2 and lines[0]["file"] == "small.h5"
     assert lines[-1] == lines[-1] | {"event": "end", "status": 0, "message": ""}
@@ -22,10 +23,13 @@ def test_a_log_tells_stages_and_the_end(kapitza, tmp_path):
     stages = {line["stage"]: line for line in lines if line["event"] == "stage"}
     assert {"map table", "cells 1", "doubt", "file"} <= set(stages)
     assert all(stage["wall"] >= 0 and 0 <= stage["busy"] <= 1.01 for stage in stages.values())
-    assert all(0 <= stage["most"] <= stage["processor"] + 1e-6 for stage in stages.values()) and lines[-1]["outside"] > 0
-    tiles = [tile for line in lines if line["event"] == "tiles" and line["stage"] == "map table" for tile in line["tile"]]
+    assert all(0 <= stage["most"] <= stage["processor"] + 1e-6
+               for stage in stages.values()) and lines[-1]["outside"] > 0
+    tiles = [tile for line in lines if line["event"] == "tiles" and line["stage"] == "map table"
+             for tile in line["tile"]]
     own = sum(sum(line["processor"]) for line in lines if line["event"] == "tiles" and line["stage"] == "map table")
-    assert 0 < len(set(tiles)) == len(tiles) <= stages["map table"]["tiles"] and own <= stages["map table"]["processor"] + 1e-4
+    assert 0 < len(set(tiles)) == len(tiles) <= stages["map table"]["tiles"]
+    assert own <= stages["map table"]["processor"] + 1e-4
     table = {line[:12].strip(): line[12:].split() for line in done.stdout.splitlines()}
     assert int(table["cells 1"][1]) == stages["cells 1"]["tiles"] and "serial s" in done.stdout
     with h5py.File(tmp_path / "small.h5") as file:

@@ -1,5 +1,6 @@
-"""Memory that runs out in the middle, at any allocation of the program: the right bytes or one line and status 1, never a hang, a
-crash, a half file or a lost checkpoint. KAPITZA_EXTENSIVE=1 tries 60 places of each scene instead of a few."""
+"""Memory that runs out in the middle, at any allocation of the program: the right bytes or one line and status 1, never
+a hang, a crash, a half file or a lost checkpoint. KAPITZA_EXTENSIVE=1 tries 60 places of each scene instead of a
+few."""
 
 import re
 import shutil
@@ -12,17 +13,21 @@ from conftest import EXTENSIVE, PROGRAM, datasets, launched, with_extensive
 PLACES = 60 if EXTENSIVE else 2
 FOREVER = 10**12
 PENDULUM = "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\n"
-BASIN = ("basin: {theta: {count: 24}, velocity: {min: -1, max: 1, count: 24}, icm: {theta: 64, velocity: 64}, method: icm, "
+BASIN = ("basin: {theta: {count: 24}, velocity: {min: -1, max: 1, count: 24}, icm: {theta: 64, velocity: 64}, method: "
+         "icm, "
          "attractors: {starts: 64}}\n")
 SCENES = {
     "basin": BASIN + "orbit: {attractor: 0}\n",
     "attractors": "attractors: {velocity: {min: -1, max: 1}, starts: 64}\n",
     "orbit": "orbit: {start: {theta: 0.5, velocity: 0}, transient: 10, periods: 16}\n",
-    "stability": "stability: {k: {min: -0.5, max: 1, count: 40}, m: {min: 0, max: 1, count: 40}, curves: [exact_1, damped_1], "
+    "stability": "stability: {k: {min: -0.5, max: 1, count: 40}, m: {min: 0, max: 1, count: 40}, curves: [exact_1, "
+                 "damped_1], "
                  "subharmonics: [2]}\npotential: {drive_amplitudes: [0.1], theta: {count: 20}}\n",
-    "sweep": "sweep: {parameter: drive_amplitude, min: 0.29, max: 0.3, count: 2, velocity: {min: -1, max: 1}, starts: 16, "
+    "sweep": "sweep: {parameter: drive_amplitude, min: 0.29, max: 0.3, count: 2, velocity: {min: -1, max: 1}, starts: "
+             "16, "
              "measure: [attractors, release_angle, strobe]}\n",
-    "tradeoff": BASIN.replace("icm: {theta: 64, velocity: 64}, method: icm, ", "") + "tradeoff: {samples: 16, settings: [direct-8]}\n",
+    "tradeoff": BASIN.replace("icm: {theta: 64, velocity: 64}, method: icm, ", "")
+    + "tradeoff: {samples: 16, settings: [direct-8]}\n",
 }
 CLOCKS = {"tradeoff/seconds", "tradeoff/seconds_per_million_cells"}
 
@@ -34,11 +39,13 @@ def result(folder):
 def run(folder, *words, **settings):
     """Two ranks with the malloc that fails on purpose (tests/tools/failing_memory.c)."""
     launcher = launched(2, "failing_memory", **{f"FAIL_{name}": value for name, value in settings.items()})
-    return subprocess.run([*launcher, PROGRAM, "run", "scene.yaml", "-o", "x.h5", *words], cwd=folder, capture_output=True, text=True)
+    return subprocess.run([*launcher, PROGRAM, "run", "scene.yaml", "-o", "x.h5", *words], cwd=folder,
+                          capture_output=True, text=True)
 
 
 def knock(folder, rank, first, count):
-    """A run that fails at allocation `first` of a rank; its end, what it left, and the end of the run that resumes it."""
+    """A run that fails at allocation `first` of a rank; its end, what it left, and the end of the run that resumes
+    it."""
     folder.mkdir()
     shutil.copy(folder.parent / "scene.yaml", folder)
     done = run(folder, RANK=rank, FIRST=first, COUNT=count)

@@ -1,4 +1,5 @@
-"""MPICH and Open MPI 5 from their Python wheels: both build the program and pass the MPI tests, and take over each other's work."""
+"""MPICH and Open MPI 5 from their Python wheels: both build the program and pass the MPI tests, and take over each
+other's work."""
 
 import subprocess
 import sys
@@ -34,7 +35,8 @@ class Build:
         call("ninja", "-j2", "kapitza", "worker", *tests, cwd=self.folder)
 
     def run(self, folder, *options, status=0):
-        call(self.tools / "mpirun", "-n", "2", self.folder / "kapitza", "run", *SCENE, *options, cwd=folder, status=status)
+        call(self.tools / "mpirun", "-n", "2", self.folder / "kapitza", "run", *SCENE, *options, cwd=folder,
+             status=status)
 
 
 @pytest.fixture(scope="module")

@@ -17,6 +17,7 @@ def test_the_default_is_processed_and_reruns_from_its_resolved_scene(kapitza, tm
 
 
 def test_a_looser_tolerance_takes_fewer_steps(kapitza, tmp_path):
-    fine, loose = (run_scene(kapitza, tmp_path, SMALL, *DIRECT, "--set", f"numerics.tolerance={tolerance}")[0].group("basin").attrs
+    fine, loose = (run_scene(kapitza, tmp_path, SMALL, *DIRECT, "--set",
+                             f"numerics.tolerance={tolerance}")[0].group("basin").attrs
                    for tolerance in (1e-12, 1e-6))
     assert loose["steps_per_period"] < fine["steps_per_period"] and 1e-9 < loose["step_error"] < 2e-6

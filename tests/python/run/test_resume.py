@@ -1,8 +1,10 @@
-"""Runs that are stopped again and again come to their end, with the same bytes: everything that takes longer than seconds is kept."""
+"""Runs that are stopped again and again come to their end, with the same bytes: everything that takes longer than
+seconds is kept."""
 
 from conftest import datasets, run_until_saved
 
-# Orbits take thousands of periods to settle: the search for attractors is nearly all of the work. (test_sweep.py stops a sweep.)
+# Orbits take thousands of periods to settle: the search for attractors is nearly all of the work. (test_sweep.py stops
+# a sweep.)
 SCENE = """\
 pendulum: {quality_factor: 300, drive_frequency: 8, drive_amplitude: 0.3}
 basin:

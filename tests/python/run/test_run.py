@@ -34,8 +34,10 @@ def test_resolved_scene_gives_the_same_datasets(kapitza, small_result, tmp_path)
 
 
 def test_a_resolved_scene_has_no_half_of_a_mapping(kapitza, tmp_path):
-    """The measures strobe and ends have mappings with a required key: where it is not given, the defaults beside it are left out."""
-    text = "pendulum: {k: 0.1, damping: 0.1, m: 0.2}\nsweep: {parameter: m, min: 0.1, max: 0.2, count: 2, measure: [strobe]}\n"
+    """The measures strobe and ends have mappings with a required key: where it is not given, the defaults beside it are
+    left out."""
+    text = ("pendulum: {k: 0.1, damping: 0.1, m: 0.2}\nsweep: {parameter: m, min: 0.1, max: 0.2, count: 2, measure: "
+            "[strobe]}\n")
     resolved = run_scene(kapitza, tmp_path, text)[0].scene
     assert "ends" not in resolved and "samples: 64" in resolved
     (tmp_path / "again.yaml").write_text(resolved)
@@ -48,14 +50,17 @@ def test_resume_of_a_complete_file_is_success_at_once(kapitza, tmp_path):
     done = kapitza("run", SMALL, "-o", "x.h5", "--resume", ranks=2, folder=tmp_path)
     assert "already complete" in done.stdout and (tmp_path / "x.h5").stat().st_mtime_ns == before
     assert [path.name for path in tmp_path.iterdir()] == ["x.h5"]
-    other = kapitza("run", SMALL, "-o", "x.h5", "--resume", "--set", "basin.attractors.seed=2", folder=tmp_path, status=2)
-    assert 'x.h5: belongs to another run: it has "basin.attractors.seed: 1", this run has "basin.attractors.seed: 2"' in other.stderr
+    other = kapitza("run", SMALL, "-o", "x.h5", "--resume", "--set", "basin.attractors.seed=2", folder=tmp_path,
+                    status=2)
+    assert ('x.h5: belongs to another run: it has "basin.attractors.seed: 1", this run has "basin.attractors.seed: 2"'
+            in other.stderr)
     kapitza("run", SMALL, "-o", "x.h5", "--force", folder=tmp_path)
 
 
 def test_a_stop_saves_and_resume_ends_with_the_same_bytes(kapitza, tmp_path):
     none = kapitza("run", SMALL, *SLOW, "--time-limit", "0.001", ranks=2, folder=tmp_path, status=75)
-    assert none.stderr == "kapitza: stopped by the time limit of 0.001 s; nothing was saved\n" and not list(tmp_path.iterdir())
+    assert none.stderr == "kapitza: stopped by the time limit of 0.001 s; nothing was saved\n"
+    assert not list(tmp_path.iterdir())
     errors = run_until_saved(kapitza, SMALL, *SLOW, file="small.h5", folder=tmp_path)
     assert errors.count("\n") == 1 and "error" not in errors
     assert sorted(path.name for path in tmp_path.iterdir()) == ["small.h5.checkpoint"]
@@ -77,11 +82,13 @@ def test_si_values_stand_in_the_file(kapitza, tmp_path):
     pendulum, resolved = result.group("pendulum").attrs, yaml.safe_load(result.attributes["scene_resolved"])["pendulum"]
     omega = 15.5 * 2 * math.pi
     assert {key: pendulum[key] for key in si} == si and pendulum["pivot_frequency"] == pytest.approx(omega, rel=1e-15)
-    assert pendulum["k"] == pytest.approx(0.1 * 0.2 * 33.06 / (0.008 * omega**2), rel=1e-14) and resolved == si | {"frequency": 15.5}
+    assert pendulum["k"] == pytest.approx(0.1 * 0.2 * 33.06 / (0.008 * omega**2),
+                                          rel=1e-14) and resolved == si | {"frequency": 15.5}
 
 
 def test_a_lone_process_starts_no_mpi(tmp_path):
-    """MPI's start takes longer than a small run, may make a daemon, and needs a folder of its own. Here it would fail."""
+    """MPI's start takes longer than a small run, may make a daemon, and needs a folder of its own. Here it would
+    fail."""
     command = [PROGRAM, "run", SMALL, "-o", tmp_path / "out.h5"]
     broken = {"OMPI_MCA_pml": "none", "OPAL_BINDIR": str(tmp_path), "TMPDIR": "/proc"}
     done = subprocess.run(command, env=os.environ | broken, capture_output=True, text=True, check=False)
@@ -91,7 +98,8 @@ def test_a_lone_process_starts_no_mpi(tmp_path):
 def test_lone_processes_of_an_unknown_launcher_do_not_write_one_file(tmp_path):
     """Each believes that it is alone: one has the lock, the others are refused."""
     command = [PROGRAM, "run", SMALL, "-o", tmp_path / "out.h5", *SLOW[:6]]
-    running = [subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for _ in range(3)]
+    running = [subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+               for _ in range(3)]
     errors = [process.communicate()[1] for process in running]
     refused = [error for process, error in zip(running, errors, strict=True) if process.returncode]
     assert sorted(process.returncode for process in running) == [0, 2, 2] and len(refused) == 2

@@ -1,4 +1,5 @@
-"""The manual page and the completions: every command and option of the help is in them, and the shells understand them."""
+"""The manual page and the completions: every command and option of the help is in them, and the shells understand
+them."""
 
 import re
 import shutil
@@ -45,7 +46,8 @@ def bash(line):
 
 def fish(line):
     """The same of fish, whose answers are words and descriptions with a tab between."""
-    done = subprocess.run(["fish", "--no-config", "-c", f"'{PROGRAM}' --completion fish | source; complete -C '{typed(line)}'"],
+    done = subprocess.run(["fish", "--no-config", "-c",
+                           f"'{PROGRAM}' --completion fish | source; complete -C '{typed(line)}'"],
                           capture_output=True, text=True)
     assert done.returncode == 0 and done.stderr == "", done.stderr
     return [row.split("\t")[0] for row in done.stdout.splitlines()]
@@ -56,7 +58,8 @@ def test_commands_options_and_keys_are_completed(shell):
     needs(shell.__name__)
     assert set(COMMANDS) <= set(shell("kapitza "))
     for command in COMMANDS:
-        assert sorted(set(options_of(command))) == sorted(word for word in shell(f"kapitza {command} --") if word.startswith("--"))
+        assert sorted(set(options_of(command))) == sorted(word for word in shell(f"kapitza {command} --")
+                                                          if word.startswith("--"))
     assert sorted(shell("kapitza run --progress ")) == ["always", "auto", "never"]
     assert "basin.theta.count=" in shell("kapitza check --set basin.theta.c")
 
@@ -83,4 +86,5 @@ def test_the_manual_page_has_every_option_and_no_warning(tmp_path):
 
 def test_an_unknown_shell_is_refused():
     done = subprocess.run([PROGRAM, "--completion", "csh"], capture_output=True, text=True)
-    assert done.returncode == 2 and done.stderr == 'kapitza: error: --completion: "csh" is unknown; it must be bash, zsh or fish\n'
+    assert done.returncode == 2
+    assert done.stderr == 'kapitza: error: --completion: "csh" is unknown; it must be bash, zsh or fish\n'

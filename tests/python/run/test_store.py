@@ -62,7 +62,8 @@ def test_the_file_is_as_the_layout_says(file):
         kind = h5py.check_string_dtype(item.dtype)
         found = "text" if kind and (kind.encoding, kind.length) == ("utf-8", None) else item.dtype.name
         assert found == row["type"], item.name
-        assert item.attrs["long_name"] == row["long_name"] and (row["units"][0] == "@" or item.attrs["units"] == row["units"]), item.name
+        assert item.attrs["long_name"] == row["long_name"] and (row["units"][0] == "@"
+                                                                or item.attrs["units"] == row["units"]), item.name
         assert len(item.shape) == len(row["dimensions"]), item.name
     assert known > 20
 
@@ -81,7 +82,8 @@ def test_nothing_is_left_beside_the_file(small_result):
 def test_cells_lie_where_the_contract_says(file):
     low, high, count = -2.0, 2.0, 100
     i = np.arange(count)
-    assert np.array_equal(file["basin/velocity"][:], (2 * i + 1 - count) * ((high - low) / (2 * count)) + (low + high) / 2)
+    assert np.array_equal(file["basin/velocity"][:], (2 * i + 1 - count) * ((high - low) / (2 * count)) + (low + high)
+                          / 2)
     theta = file["basin/theta"][:]
     assert np.array_equal(theta, -theta[::-1]) and np.allclose(np.diff(theta), 2 * np.pi / count)
 
@@ -106,9 +108,10 @@ def test_the_catalogue_is_in_order(small_result):
     """Sorted by centre, period (0 last), |winding|/period, + before -, then the first strobe point."""
     table = Result(small_result).group("attractors")
     period, winding = table["period"].values, table["winding"].values
-    keys = list(zip(table["centre"].values, np.where(period == 0, 10**6, period), np.abs(winding) / np.maximum(period, 1),
-                    -np.sign(winding), table["strobe_velocity"].values[:, 0].round(9), table["strobe_theta"].values[:, 0].round(9),
-                    strict=True))
+    keys = list(zip(table["centre"].values, np.where(period == 0, 10**6, period),
+                    np.abs(winding) / np.maximum(period, 1),
+                    -np.sign(winding), table["strobe_velocity"].values[:, 0].round(9),
+                    table["strobe_theta"].values[:, 0].round(9), strict=True))
     assert keys == sorted(keys)
 
 
@@ -117,7 +120,8 @@ def test_strobe_points_are_listed_as_promised(small_result):
     for row in range(table.sizes["attractor"]):
         theta, velocity = table["strobe_theta"].values[row], table["strobe_velocity"].values[row]
         period = int(table["period"].values[row])
-        assert np.all(np.isfinite(theta[:period])) and np.all(np.isnan(theta[period:])) and np.all(np.isnan(velocity[period:]))
+        assert np.all(np.isfinite(theta[:period])) and np.all(np.isnan(theta[period:]))
+        assert np.all(np.isnan(velocity[period:]))
         assert np.all((theta[:period] >= -np.pi) & (theta[:period] < np.pi))
         assert not np.any((theta[:period] == 0) & np.signbit(theta[:period])), "a negative zero"
         assert velocity[0] == velocity[:period].min()
@@ -131,7 +135,8 @@ def test_mirror_images_are_mutual(small_result):
     assert np.array_equal(table["winding"].values[mirror], -table["winding"].values)
 
 
-MANY = """pendulum: {mass: 1, radius: 1, inertia: 1, friction: 0.5, gravity: 1, pivot_amplitude: 0.3, pivot_frequency: 11}
+MANY = """pendulum: {mass: 1, radius: 1, inertia: 1, friction: 0.5, gravity: 1,
+           pivot_amplitude: 0.3, pivot_frequency: 11}
 attractors: {velocity: {min: -1, max: 1}, starts: 64}
 orbit: {start: {theta: 3, velocity: 0}, periods: 8}
 stability: {k: {min: -1, max: 1, count: 3}, m: {min: 0, max: 1, count: 3}, curves: [exact_1], damping: 0.1}
@@ -149,7 +154,8 @@ def variables(kapitza, small_result, tmp_path_factory):
     found = []
     for path in (small_result, folder / "many.h5"):
         with h5py.File(path) as opened:
-            found += [(item.name, str(item.attrs["units"]), str(item.attrs["long_name"])) for item in every_dataset(opened)]
+            found += [(item.name, str(item.attrs["units"]), str(item.attrs["long_name"]))
+                      for item in every_dataset(opened)]
     return found
 
 
@@ -167,5 +173,6 @@ def test_udunits_knows_every_unit(variables):
 def test_long_names_say_what_one_is(variables):
     names = {name: long_name for name, _, long_name in variables}
     assert names["/basin/velocity"] == "angular velocity of the cell centre, in rad per drive radian"
-    assert names["/orbit/time"].endswith(", in drive radians") and names["/attractors/period"].endswith(", in drive periods")
+    assert names["/orbit/time"].endswith(", in drive radians")
+    assert names["/attractors/period"].endswith(", in drive periods")
     assert not any("|" in text for row in variables for text in row[1:2])

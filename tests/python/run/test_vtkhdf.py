@@ -42,7 +42,8 @@ def test_it_is_on_the_disk_before_it_has_its_name(small_result, tmp_path, monkey
     done = []
     for name, real in (("fsync", os.fsync), ("replace", os.replace)):
         monkeypatch.setattr(os, name, lambda *words, name=name, real=real: (done.append(name), real(*words)))
-    assert plot("vtkhdf", small_result, "-o", tmp_path / "small.vtkhdf").returncode == 0 and done == ["fsync", "replace"]
+    assert plot("vtkhdf", small_result, "-o",
+                tmp_path / "small.vtkhdf").returncode == 0 and done == ["fsync", "replace"]
 
 
 def test_vtk_reads_it(pair):
@@ -59,7 +60,8 @@ def test_vtk_reads_it(pair):
             assert np.array_equal(vtk_to_numpy(image.GetCellData().GetArray(name)), file["basin"][name][:].ravel())
 
 
-@pytest.mark.parametrize(("output", "message"), [("x.png", "must end in .vtkhdf"), ("small.vtkhdf", "is the result itself")])
+@pytest.mark.parametrize(("output", "message"),
+                         [("x.png", "must end in .vtkhdf"), ("small.vtkhdf", "is the result itself")])
 def test_what_cannot_be_written_is_said(small_result, tmp_path, output, message):
     shutil.copy(small_result, tmp_path / "small.vtkhdf")
     before = (tmp_path / "small.vtkhdf").read_bytes()

@@ -1,4 +1,5 @@
-"""What `kapitza check` estimates, against what runs take: memory of the largest rank, disk of the file and the checkpoint."""
+"""What `kapitza check` estimates, against what runs take: memory of the largest rank, disk of the file and the
+checkpoint."""
 
 import json
 import re
@@ -15,14 +16,16 @@ LARGE = [pytest.param(n, ranks, marks=pytest.mark.extensive) for n in (1000, 800
 
 
 def words(n, method):
-    return [FIG12, "--set", f"basin.theta.count={n}", "--set", f"basin.velocity.count={n}", "--set", f"basin.method={method}"]
+    return [FIG12, "--set", f"basin.theta.count={n}", "--set", f"basin.velocity.count={n}", "--set",
+            f"basin.method={method}"]
 
 
 def estimates(kapitza, n, method):
     """Bytes: disk, of each rank, of the first besides, of all together besides."""
     text = kapitza("check", "--all", *words(n, method)).stdout
     disk = re.search(r"([\d.]+) (\w+) on disk", text)
-    memory = re.search(r"memory per rank +([\d.]+) (\w+), ([\d.]+) (\w+) more on rank 0, and a share of ([\d.]+) (\w+)", text)
+    memory = re.search(r"memory per rank +([\d.]+) (\w+), ([\d.]+) (\w+) more on rank 0, and a share of ([\d.]+) (\w+)",
+                       text)
     numbers = [*disk.groups(), *memory.groups()]
     return [float(number) * UNITS[unit] for number, unit in zip(numbers[::2], numbers[1::2], strict=True)]
 
@@ -69,10 +72,13 @@ def test_ten_billion_cells_can_be_checked(kapitza):
 
 @pytest.mark.extensive
 def test_many_unsettled_cells_are_labelled_again_in_parts(kapitza, tmp_path):
-    """Two starts find two attractors; 1.4 million cells end elsewhere, more than a rank lists at a time. The same bytes on three ranks."""
+    """Two starts find two attractors; 1.4 million cells end elsewhere, more than a rank lists at a time. The same bytes
+    on three ranks."""
     few = ["--set", "basin.attractors.starts=2", "--set", "basin.max_periods=40"]
     for ranks in (1, 3):
-        kapitza("run", *words(2600, "direct"), *few, "-o", f"{ranks}.h5", "--log", f"{ranks}.jsonl", folder=tmp_path, ranks=ranks)
-        stages = [json.loads(line).get("stage") for line in (tmp_path / f"{ranks}.jsonl").read_text().splitlines() if '"stage", ' in line]
+        kapitza("run", *words(2600, "direct"), *few, "-o", f"{ranks}.h5", "--log", f"{ranks}.jsonl", folder=tmp_path,
+                ranks=ranks)
+        stages = [json.loads(line).get("stage") for line in (tmp_path / f"{ranks}.jsonl").read_text().splitlines()
+                  if '"stage", ' in line]
         assert stages.count("cells 1") == 1 and stages.count("cells 2") == 2, stages
     assert datasets(tmp_path / "1.h5") == datasets(tmp_path / "3.h5")

@@ -1,4 +1,5 @@
-"""A pendulum in a laboratory: units in scenes, starts and sweeps, and what the first line of a summary says of its rest positions."""
+"""A pendulum in a laboratory: units in scenes, starts and sweeps, and what the first line of a summary says of its rest
+positions."""
 
 import re
 
@@ -50,7 +51,8 @@ def test_the_first_line_says_what_stands(amplitude, words):
 
 
 @pytest.mark.parametrize("pendulum, key, unit", [
-    (ROD, "amplitude", " mm"), (PAPER, "drive_amplitude", ""), (PAPER | {"drive_amplitude": -0.3}, "drive_amplitude", "")])
+    (ROD, "amplitude", " mm"), (PAPER, "drive_amplitude", ""), (PAPER | {"drive_amplitude": -0.3}, "drive_amplitude",
+                                                                "")])
 def test_the_rod_stands_at_the_limits_that_are_printed(pendulum, key, unit):
     """0.129 was printed for 0.12905, below which it falls; and positive limits for a negative amplitude."""
     said = rest(kapitza.check(still(**pendulum)).text)
@@ -72,14 +74,16 @@ def test_without_gravity_both_rests_are_stable_from_no_drive_on(m, limits):
 
 def test_numbers_without_a_unit_are_noted():
     bare = kapitza.check(still(**ROD | {"length": 0.2, "amplitude": 0.008, "frequency": 50})).text
-    assert "note: pendulum: numbers without a unit are taken so: length 0.2 m, frequency 50 Hz, amplitude 0.008 m" in bare
+    assert ("note: pendulum: numbers without a unit are taken so: length 0.2 m, frequency 50 Hz, amplitude 0.008 m"
+            in bare)
     assert "note:" not in kapitza.check(still(**ROD)).text
 
 
 @pytest.mark.parametrize("key, value", [("length", "200"), ("amplitude", "5"), ("amplitude", "-8.5")])
 def test_lengths_in_millimetres_without_a_unit_are_refused(key, value):
     """With its unit even 200 m pass, and so does the resolved scene of them."""
-    with pytest.raises(kapitza.SceneError, match=f"{value} is taken for {value} m, more than a laboratory has; give its unit, such as"):
+    with pytest.raises(kapitza.SceneError,
+                       match=f"{value} is taken for {value} m, more than a laboratory has; give its unit, such as"):
         kapitza.check(still(**ROD | {key: value}))
     resolved = kapitza.check(still(**ROD | {key: f"{value} m"})).scene
     assert f"{key}: {value} m" in resolved and kapitza.check(resolved).scene == resolved
@@ -110,7 +114,8 @@ def test_tables_of_starts_are_in_si_too():
     table = kapitza.where(SCENE, ["175 deg", 0.1], "3 rad/s")
     assert table["velocity_rad_per_s"].values == pytest.approx(3, rel=1e-12)
     assert np.allclose(table["settling_seconds"], table["settling_time"].astype(float) / 50)
-    assert np.allclose(table["near_seconds"], table["near_time"].astype(float) / 50) and (table["near_time"] > 100).all()
+    assert np.allclose(table["near_seconds"],
+                       table["near_time"].astype(float) / 50) and (table["near_time"] > 100).all()
     assert table["strobe_velocity_rad_per_s"][0] == pytest.approx(OMEGA * np.array(table["strobe_velocity"][0]))
 
 
@@ -141,26 +146,32 @@ def test_scales_of_shocks_take_units():
 
 
 def test_velocities_take_units_wherever_they_are_keys():
-    """The resolved scene has them in units of the drive, to the bit of velocity / omega, and reads as the same scene again."""
+    """The resolved scene has them in units of the drive, to the bit of velocity / omega, and reads as the same scene
+    again."""
     resolved = kapitza.check(IN_SI).scene
     numbers = yaml.safe_load(resolved)
-    assert numbers["basin"]["velocity"]["min"] == -16 / OMEGA and numbers["basin"]["velocity"]["max"] == np.radians(900) / OMEGA
+    assert numbers["basin"]["velocity"]["min"] == -16 / OMEGA
+    assert numbers["basin"]["velocity"]["max"] == np.radians(900) / OMEGA
     assert numbers["saddles"]["velocity"] == {"min": -1, "max": 3 / OMEGA}
     assert numbers["orbit"]["start"] == {"theta": np.radians(150), "velocity": np.radians(170) / OMEGA}
-    assert {name: numbers["sweep"]["ends"][name] for name in ("theta", "velocity")} == {"theta": [1, np.pi / 2], "velocity": [0, 3 / OMEGA]}
+    assert {name: numbers["sweep"]["ends"][name] for name in ("theta", "velocity")} == {"theta": [1, np.pi / 2],
+                                                                                        "velocity": [0, 3 / OMEGA]}
     assert kapitza.check(resolved).scene == resolved
     window = {"basin.velocity": {"centre": "10 rad/s", "width": "1 deg/s", "count": 8},
               "basin.theta": {"centre": "170°", "width": "pi/8", "count": 8}}
     deep = yaml.safe_load(kapitza.check(IN_SI, set=window).scene)["basin"]
-    assert float(deep["velocity"]["centre"]) == 10 / OMEGA and float(deep["theta"]["centre"]) == pytest.approx(np.radians(170), rel=1e-15)
+    assert float(deep["velocity"]["centre"]) == 10 / OMEGA
+    assert float(deep["theta"]["centre"]) == pytest.approx(np.radians(170), rel=1e-15)
     assert float(deep["theta"]["width"]) == np.pi / 8
 
 
 @pytest.mark.parametrize(("change", "words"), [
-    ({"orbit.start.velocity": "3 m/s"}, "is not a finite decimal number; it must be a number from -1000000000 to 1000000000 in "
+    ({"orbit.start.velocity": "3 m/s"},
+     "is not a finite decimal number; it must be a number from -1000000000 to 1000000000 in "
                                         "rad per drive radian, or with its unit: rad/s, deg/s"),
     ({"orbit.start.velocity": "3 Hz"}, "is in a unit of another quantity"),
-    ({"sweep.y": {"parameter": "frequency", "min": 10, "max": 20, "count": 2}}, "but the scene changes the frequency of the pivot"),
+    ({"sweep.y": {"parameter": "frequency", "min": 10, "max": 20, "count": 2}},
+     "but the scene changes the frequency of the pivot"),
     ({"pendulum.frequency": "50 mm"}, 'pendulum.frequency: "50 mm" is in a unit of another quantity'),
 ])
 def test_velocities_with_a_wrong_unit_are_refused(change, words):
@@ -170,5 +181,6 @@ def test_velocities_with_a_wrong_unit_are_refused(change, words):
 
 def test_a_velocity_per_second_needs_a_pendulum_in_si():
     scene = yaml.safe_load(IN_SI) | {"pendulum": {"k": 0.1, "damping": 0.1, "m": 0.1}}
-    with pytest.raises(kapitza.SceneError, match='"-16 rad/s" is per second, but the scene is not in SI units; it must be a number'):
+    with pytest.raises(kapitza.SceneError,
+                       match='"-16 rad/s" is per second, but the scene is not in SI units; it must be a number'):
         kapitza.check(scene)

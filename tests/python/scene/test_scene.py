@@ -49,16 +49,20 @@ def test_integers_are_in_range_or_refused(tmp_path, value):
 
 
 def test_last_option_wins(tmp_path):
-    text = resolved(tmp_path, "--set", "basin.theta.count=3", "--set", "basin.theta={count: 4}", "--set", "basin.theta.count=5")
+    text = resolved(tmp_path, "--set", "basin.theta.count=3", "--set", "basin.theta={count: 4}", "--set",
+                    "basin.theta.count=5")
     assert at(yaml.safe_load(text), "basin.theta.count") == 5
 
 
 @pytest.mark.parametrize(("by_symbol", "by_name", "options"), [
     ("pendulum: {Q: 5, Omega: 11, epsilon: 0.3}\nattractors: {velocity: {min: -1, max: 1}}\n",
-     "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\nattractors: {velocity: {min: -1, max: 1}}\n",
+     "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\nattractors: {velocity: {min: -1, max: "
+     "1}}\n",
      [["pendulum.Q=4"], ["pendulum={Q: 4, Omega: 12, epsilon: 0.1}"]]),
-    ("pendulum: {k: 0.01, beta: 0.1, m: 0.5}\nsweep: {parameter: beta, min: 0.1, max: 0.2, count: 3, measure: [attractors]}\n",
-     "pendulum: {k: 0.01, damping: 0.1, m: 0.5}\nsweep: {parameter: damping, min: 0.1, max: 0.2, count: 3, measure: [attractors]}\n",
+    ("pendulum: {k: 0.01, beta: 0.1, m: 0.5}\nsweep: {parameter: beta, min: 0.1, max: 0.2, count: 3, measure: "
+     "[attractors]}\n",
+     "pendulum: {k: 0.01, damping: 0.1, m: 0.5}\nsweep: {parameter: damping, min: 0.1, max: 0.2, count: 3, measure: "
+     "[attractors]}\n",
      [["pendulum.beta=0.2", "sweep.max=0.3"]]),
     ("stability: {k: {min: 0, max: 1}, m: {min: 0, max: 1}, beta: 0.1}\n",
      "stability: {k: {min: 0, max: 1}, m: {min: 0, max: 1}, damping: 0.1}\n", [["stability.beta=0.2"]])])
@@ -119,10 +123,12 @@ def test_every_scene_of_the_repository_is_valid(tmp_path, name):
 def test_reference_of_the_keys_is_current(tmp_path):
     status, out, _ = program(tmp_path, "keys")
     assert status == 0
-    assert out.decode() == (ROOT / "docs" / "reference" / "scene.md").read_text(), "build/kapitza keys > docs/reference/scene.md"
+    assert out.decode() == (ROOT / "docs" / "reference"
+                            / "scene.md").read_text(), "build/kapitza keys > docs/reference/scene.md"
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["run", "--help"], ["check", "--help"], ["keys", "--help"]])
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["run", "--help"], ["check", "--help"],
+                                       ["keys", "--help"]])
 @pytest.mark.parametrize("launcher", [[], ["mpirun", "-n", "2"]])
 def test_help_and_version_are_printed_once(tmp_path, arguments, launcher):
     status, out, err = program(tmp_path, *arguments, launcher=launcher)

@@ -49,7 +49,8 @@ def test_every_scene_passes_check_jsonschema(schema_text, tmp_path):
     "pendulum: {k: 0.01, damping: 0.1, m: 0.5, quality_factor: 5}\n" + BASIN,
     "pendulum: {quality_factor: 0, drive_frequency: 11, drive_amplitude: 0.3}\n" + BASIN,
     *(f"pendulum: {{k: 0.01, damping: 0.1, m: 0.5, {drive}}}\n{BASIN}" for drive in (
-        "tilt: steep", "ellipse: 11", "torque: 1e7", "torque_amplitude: [1]", "waveform: cosine", "waveform: samples, samples: [a]",
+        "tilt: steep", "ellipse: 11", "torque: 1e7", "torque_amplitude: [1]", "waveform: cosine",
+        "waveform: samples, samples: [a]",
         "ramp: {key: k, from: 1, periods: 2}", "ramp: {key: damping, from: 1}", "harmonics: [{order: 0, amplitude: 1}]",
         "harmonics: [{order: 2, height: 1}]")),
     PENDULUM + "basin: {velocity: {min: -1, max: 1}, start_phase: late}\n",
@@ -74,16 +75,19 @@ def test_symbols_may_stand_for_keys(pendulum, good, validator, tmp_path):
 
 
 def test_the_keys_of_all_drives_are_good(validator):
-    for drive in ("tilt: 5 deg, ellipse: 0.1, torque: 0.01, waveform: triangle", "waveform: samples, samples: [1, 0, -1, 0]",
+    for drive in ("tilt: 5 deg, ellipse: 0.1, torque: 0.01, waveform: triangle",
+                  "waveform: samples, samples: [1, 0, -1, 0]",
                   "harmonics: [{order: 2, amplitude: 0.1, phase: 90 deg}, {order: 3, amplitude: 0.1}]",
                   "ramp: {key: drive_amplitude, from: 0, periods: 2.5, shape: smooth}"):
-        text = f"pendulum: {{k: 0.01, damping: 0.1, m: 0.5, {drive}}}\nbasin: {{velocity: {{min: -1, max: 1}}, start_phase: pi/2}}\n"
+        text = (f"pendulum: {{k: 0.01, damping: 0.1, m: 0.5, {drive}}}\nbasin: {{velocity: {{min: -1, max: 1}}, "
+                f"start_phase: pi/2}}\n")
         assert validator.is_valid(yaml.safe_load(text)), drive
 
 
 @pytest.mark.parametrize(("text", "good"), [("-90 deg", True), ("90 degrees", False), ("deg", False)])
 def test_angles_may_be_in_degrees(text, good, validator, tmp_path):
-    (tmp_path / "scene.yaml").write_text(PENDULUM + f"basin: {{velocity: {{min: -1, max: 1}}, theta: {{min: {text}, max: 2}}}}\n")
+    (tmp_path / "scene.yaml").write_text(
+        PENDULUM + f"basin: {{velocity: {{min: -1, max: 1}}, theta: {{min: {text}, max: 2}}}}\n")
     done = subprocess.run([PROGRAM, "check", tmp_path / "scene.yaml"], capture_output=True, text=True)
     assert done.returncode == (0 if good else 2)
     assert validator.is_valid(yaml.safe_load((tmp_path / "scene.yaml").read_text())) == good
@@ -111,4 +115,5 @@ def test_it_knows_every_key_with_its_default(validator):
         if documented[name] in ("-", "required"):
             assert default is None
         else: # PyYAML takes 1e-12 as text
-            assert (type(default)(documented[name]) if isinstance(default, float) else yaml.safe_load(documented[name])) == default
+            assert (type(default)(documented[name]) if isinstance(default, float)
+                    else yaml.safe_load(documented[name])) == default

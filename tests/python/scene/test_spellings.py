@@ -13,14 +13,16 @@ STROBE = {"measure": "strobe", "transient": 0, "samples": 1, "progress": False}
 
 @pytest.mark.parametrize("key", ["drive_amplitude", "pendulum.drive_amplitude"])
 def test_a_sweep_has_the_values_that_are_given(key):
-    """An array or a list of any spacing is these values, and the resolved scene has them; a range says that it is one."""
+    """An array or a list of any spacing is these values, and the resolved scene has them; a range says that it is
+    one."""
     for values in (np.linspace(0.1, 0.5, 5), [0.1, 0.15, 0.4], (0.2, 0.3)):
         swept = kapitza.sweep({"pendulum": FIG12}, key, values, **STROBE)
         assert swept.group("sweep")["value"].values.tolist() == list(values)
         again = kapitza.run(swept.scene, progress=False)
         assert again.group("sweep").identical(swept.group("sweep"))
     swept = kapitza.sweep({"pendulum": FIG12}, key, {"min": 0.1, "max": 0.5, "count": 3}, **STROBE).group("sweep")
-    assert swept["value"].values.tolist() == pytest.approx([0.1, 0.3, 0.5], rel=1e-15) and swept.attrs["parameter"] == "drive_amplitude"
+    assert swept["value"].values.tolist() == pytest.approx([0.1, 0.3, 0.5],
+                                                           rel=1e-15) and swept.attrs["parameter"] == "drive_amplitude"
 
 
 def test_values_of_a_sweep_may_have_units():
@@ -31,8 +33,8 @@ def test_values_of_a_sweep_may_have_units():
 
 
 @pytest.mark.parametrize(("values", "wrong"), [
-    ([0.2, 0.1], "0.1 is not above the value before it, 0.2"), ([0.2, 0.2], "is not above"), ([0.2], "give two or more"),
-    ([], "empty list"), ([0.1, "1 mm"], "another quantity"), ([[0.1, 0.2]], "is a list"),
+    ([0.2, 0.1], "0.1 is not above the value before it, 0.2"), ([0.2, 0.2], "is not above"),
+    ([0.2], "give two or more"), ([], "empty list"), ([0.1, "1 mm"], "another quantity"), ([[0.1, 0.2]], "is a list"),
     ({"min": 0.1, "max": 0.5}, "sweep.count"), ({"min": 0.1, "max": 0.5, "count": 3, "values": [0.1]}, "contradicts")])
 def test_values_that_are_no_sweep_are_refused(values, wrong):
     with pytest.raises(kapitza.SceneError, match=wrong):
@@ -40,7 +42,8 @@ def test_values_that_are_no_sweep_are_refused(values, wrong):
 
 
 def test_a_sweep_of_two_ends_and_a_count_is_told_the_new_spelling():
-    for old in (lambda: kapitza.sweep(SMALL, "drive_amplitude", (0.1, 0.5), 9), lambda: kapitza.sweep(SMALL, "k", (0.1, 0.5), count=9)):
+    for old in (lambda: kapitza.sweep(SMALL, "drive_amplitude", (0.1, 0.5), 9),
+                lambda: kapitza.sweep(SMALL, "k", (0.1, 0.5), count=9)):
         with pytest.raises(TypeError, match='"count": 50'):
             old()
 
@@ -50,8 +53,10 @@ def test_a_sweep_of_two_ends_and_a_count_is_told_the_new_spelling():
 def test_a_change_keeps_its_neighbours_however_it_is_spelled(change):
     """The other keys of the pendulum stay; a mapping is merged at any depth, and a key of the ramp stands alone too."""
     pendulum = {**FIG12, "ramp": {"key": "drive_amplitude", "from": 0, "periods": 5}}
-    changed = Scene({"pendulum": pendulum}, change | {"ramp.periods": 7, "basin": {"theta": {"count": 9}}, "title": "x"})
-    assert changed.tree() == {"pendulum": {"quality_factor": "5", "drive_frequency": "11", "drive_amplitude": "0.4", "ramp": {
+    changed = Scene({"pendulum": pendulum}, change | {"ramp.periods": 7, "basin": {"theta": {"count": 9}},
+                                                      "title": "x"})
+    assert changed.tree() == {"pendulum": {"quality_factor": "5", "drive_frequency": "11", "drive_amplitude": "0.4",
+                                           "ramp": {
         "key": "drive_amplitude", "from": "0", "periods": "7"}}, "basin": {"theta": {"count": "9"}}, "title": "x"}
     assert "--set" in changed.sets and kapitza.check(SMALL, set=change).scene == kapitza.check(
         SMALL, set={"pendulum.drive_amplitude": 0.4}).scene

@@ -53,7 +53,8 @@ def test_a_file_of_somebody_else_beside_the_result_stays(kapitza, tmp_path, suff
     assert f"{taken.name}: exists and would be overwritten" in done.stderr and taken.read_text() == "mine"
     kapitza("run", SMALL, *FEW, *words, "--force", folder=tmp_path)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["small.h5", "small.h5.truth"]
-    taken.write_bytes({".part": b"\x89HDF\r\n\x1a\n an unfinished result of kapitza"}.get(suffix, b"kapitza truth 1: cut off"))
+    taken.write_bytes({".part": b"\x89HDF\r\n\x1a\n an unfinished result of kapitza"}.get(suffix,
+                                                                                          b"kapitza truth 1: cut off"))
     for name in {"small.h5", "small.h5.truth"} - {taken.name}:
         (tmp_path / name).unlink()
     kapitza("run", SMALL, *FEW, *words, folder=tmp_path)

@@ -1,5 +1,5 @@
-"""Messages where something is odd: keys that do nothing, words in the wrong place, ranks that were given different things,
-file systems without locks, logs that a kill has cut. Nothing is left behind that stops the next run."""
+"""Messages where something is odd: keys that do nothing, words in the wrong place, ranks that were given different
+things, file systems without locks, logs that a kill has cut. Nothing is left behind that stops the next run."""
 
 import json
 
@@ -45,13 +45,15 @@ def test_a_wrong_command_line_is_told_what_to_write(kapitza, tmp_path, words, sa
 
 
 def test_help_is_a_command_too(kapitza):
-    assert kapitza("help").stdout == kapitza("--help").stdout and kapitza("help", "run").stdout == kapitza("run", "--help").stdout
+    assert kapitza("help").stdout == kapitza("--help").stdout
+    assert kapitza("help", "run").stdout == kapitza("run", "--help").stdout
 
 
 @pytest.mark.parametrize("words", [["plot"], ["plot", "basin"], ["info"]])
 def test_a_scene_in_place_of_a_result_is_told_the_way(kapitza, tmp_path, words):
     done = kapitza(*words, SMALL, folder=tmp_path, status=1)
-    assert done.stderr == f"kapitza: error: {SMALL}: is a scene, not a result; kapitza run {SMALL} makes its result small.h5\n"
+    assert done.stderr == (f"kapitza: error: {SMALL}: is a scene, not a result; "
+                           f"kapitza run {SMALL} makes its result small.h5\n")
 
 
 def test_no_scene_of_the_repository_has_keys_that_do_nothing(kapitza, tmp_path):

@@ -23,16 +23,16 @@ static int gap_of(double x) {
   return 34;
 }
 
-static void fill(int16_t (*of)(int row, int column)) {
+static void boundary_fill(int16_t (*of)(int row, int column)) {
   for (int row = 0; row <= 256; row++)
     for (int column = 0; column < SIDE; column++) label[row][column] = of(row, column);
 }
 
-static int16_t line(int row, int column) {
+static int16_t boundary_line(int row, int column) {
   return column - 3 * row > 700;
 }
 
-static int16_t stripes(int row, int column) {
+static int16_t boundary_stripes(int row, int column) {
   (void)row;
   return (int16_t)(column / 100 % 3);
 }
@@ -45,11 +45,11 @@ static int16_t cantor_3(int row, int column) {
 /* A line has the dimension 1, stripes over a Cantor set 1 + ln 2/ln 3: over the scales of three triadic steps. */
 TEST(test_dimensions) {
   kz_box_counts counts = {0};
-  fill(line);
+  boundary_fill(boundary_line);
   kz_boxes_count(SIDE, 257, label[0], KZ_BOX_SIZES, &counts);
   for (int level = 0; level < 5; level++) assert_true(fabs(kz_boxes_dimension(&counts, level) - 1) < 0.05);
   memset(&counts, 0, sizeof counts);
-  fill(cantor_3);
+  boundary_fill(cantor_3);
   kz_boxes_count(SIDE, 257, label[0], KZ_BOX_SIZES, &counts);
   double mean = 0;
   for (int level = 2; level < 7; level++) mean += kz_boxes_dimension(&counts, level) / 5;
@@ -60,9 +60,9 @@ TEST(test_dimensions) {
  * three. */
 TEST(test_which_basins_share_their_boundary) {
   kz_box_counts wada = {0}, pairs = {0};
-  fill(cantor_3);
+  boundary_fill(cantor_3);
   kz_boxes_count(SIDE, 257, label[0], KZ_BOX_SIZES, &wada);
-  fill(stripes);
+  boundary_fill(boundary_stripes);
   kz_boxes_count(SIDE, 257, label[0], KZ_BOX_SIZES, &pairs);
   for (int i = 0; i < 3; i++) {
     assert_true((double)wada.with[6][i] > 0.99 * (double)wada.boxes[6]);

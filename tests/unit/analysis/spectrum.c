@@ -41,12 +41,12 @@ static int free_room(void **state) {
   return 0;
 }
 
-static kz_record closed(int64_t periods, double rotation, double centre) {
+static kz_record spectrum_closed(int64_t periods, double rotation, double centre) {
   return (kz_record){periods, SAMPLES, rotation, centre, true, false};
 }
 
 /* Samples centre + a0 + rotation t + the lines, the clock `shift` drive radians ahead. */
-static void fill(const kz_record *record, double a0, const line_t *line, int n, double shift) {
+static void spectrum_fill(const kz_record *record, double a0, const line_t *line, int n, double shift) {
   for (int64_t i = 0; i < record->periods * SAMPLES; i++) {
     double t = 2 * PI * (double)i / SAMPLES + shift;
     room->theta[i] = record->centre + a0 + record->rotation * t;
@@ -54,14 +54,14 @@ static void fill(const kz_record *record, double a0, const line_t *line, int n, 
   }
 }
 
-static void lines(const kz_record *record, int64_t n) {
+static void spectrum_lines(const kz_record *record, int64_t n) {
   assert_int_equal(kz_spectrum_lines(record, room->theta, n, room->amplitude, room->phase), KZ_OK);
 }
 
 TEST(analytic_lines_come_back) {
-  kz_record record = closed(6, 0, PI);
-  fill(&record, -0.02, NODDING, 4, 0);
-  lines(&record, N_LINES);
+  kz_record record = spectrum_closed(6, 0, PI);
+  spectrum_fill(&record, -0.02, NODDING, 4, 0);
+  spectrum_lines(&record, N_LINES);
   for (int64_t j = 1; j < N_LINES; j++) {
     double amplitude = 0, phase = NAN;
     for (int i = 0; i < 4; i++) {
@@ -80,36 +80,36 @@ TEST(analytic_lines_come_back) {
 
 /* A mean velocity of more than half a turn a drive radian is no angle: it is not wrapped. */
 TEST(mean_velocity_is_not_wrapped) {
-  kz_record record = closed(6, 0, 0);
-  fill(&record, 5, NODDING, 4, 0.7);
-  lines(&record, 20);
+  kz_record record = spectrum_closed(6, 0, 0);
+  spectrum_fill(&record, 5, NODDING, 4, 0.7);
+  spectrum_lines(&record, 20);
   assert_true(fabs(room->amplitude[0] - (2 * PI - 5)) < 1e-12);
   record.velocity = true;
-  lines(&record, 20);
+  spectrum_lines(&record, 20);
   assert_true(fabs(room->amplitude[0] - 5) < 1e-12 && fabs(room->amplitude[1] - NODDING[0].amplitude) < 1e-12);
 }
 
 TEST(symmetry_is_told_from_even_lines) {
-  kz_record record = closed(6, 0, PI);
-  fill(&record, 0, NODDING, 4, 0);
-  lines(&record, N_LINES);
+  kz_record record = spectrum_closed(6, 0, PI);
+  spectrum_fill(&record, 0, NODDING, 4, 0);
+  spectrum_lines(&record, N_LINES);
   assert_true(kz_spectrum_symmetric(&record, N_LINES, room->amplitude));
-  fill(&record, 1e-6, NODDING, 4, 0);
-  lines(&record, N_LINES);
+  spectrum_fill(&record, 1e-6, NODDING, 4, 0);
+  spectrum_lines(&record, N_LINES);
   assert_false(kz_spectrum_symmetric(&record, N_LINES, room->amplitude));
-  fill(&record, 0, WITH_EVEN, 3, 0);
-  lines(&record, N_LINES);
+  spectrum_fill(&record, 0, WITH_EVEN, 3, 0);
+  spectrum_lines(&record, N_LINES);
   assert_false(kz_spectrum_symmetric(&record, N_LINES, room->amplitude));
-  kz_record turning = closed(6, 1, 0);
-  fill(&turning, 0, NODDING, 4, 0);
-  lines(&turning, N_LINES);
+  kz_record turning = spectrum_closed(6, 1, 0);
+  spectrum_fill(&turning, 0, NODDING, 4, 0);
+  spectrum_lines(&turning, N_LINES);
   assert_false(kz_spectrum_symmetric(&turning, N_LINES, room->amplitude));
 }
 
 TEST(rest_has_no_lines) {
-  kz_record record = closed(4, 0, PI);
-  fill(&record, 0, NODDING, 0, 0);
-  lines(&record, N_LINES - 1);
+  kz_record record = spectrum_closed(4, 0, PI);
+  spectrum_fill(&record, 0, NODDING, 0, 0);
+  spectrum_lines(&record, N_LINES - 1);
   assert_int_equal(kz_spectrum_dominant(N_LINES - 1, room->amplitude), 0);
   assert_int_equal(kz_spectrum_period(&record, N_LINES - 1, room->amplitude), 1);
   assert_true(kz_spectrum_symmetric(&record, N_LINES - 1, room->amplitude));
@@ -119,10 +119,10 @@ TEST(rest_has_no_lines) {
 /* An open record: any number of periods, a fitted rotation. */
 static int64_t open_period(int64_t periods, double rotation, const line_t *line, int n, double *largest) {
   kz_record record = {periods, SAMPLES, rotation, 0, false, false};
-  fill(&record, 0.3, line, n, 0.1);
+  spectrum_fill(&record, 0.3, line, n, 0.1);
   record.rotation = kz_spectrum_rotation(&record, room->theta);
   assert_true(fabs(record.rotation - rotation) < 1e-5);
-  lines(&record, 8 * periods);
+  spectrum_lines(&record, 8 * periods);
   *largest = room->amplitude[kz_spectrum_dominant(8 * periods, room->amplitude)];
   return kz_spectrum_period(&record, 8 * periods, room->amplitude);
 }
@@ -141,7 +141,7 @@ TEST(open_records_tell_n) {
 }
 
 TEST(too_many_lines_are_refused) {
-  kz_record record = closed(1, 0, 0);
+  kz_record record = spectrum_closed(1, 0, 0);
   kz_message_clear();
   assert_int_equal(kz_spectrum_lines(&record, room->theta, SAMPLES / 2 + 1, room->amplitude, room->phase), KZ_REFUSED);
   assert_non_null(strstr(kz_message(), "17 lines"));

@@ -11,7 +11,7 @@ static double theta[MOST], velocity[MOST];
 static kz_turning_point found[MOST];
 
 /* a cos(t + phase) over `periods`, `samples` a period, both ends. */
-static int64_t cosine(int64_t periods, int64_t samples, double a, double phase) {
+static int64_t turning_cosine(int64_t periods, int64_t samples, double a, double phase) {
   int64_t n = periods * samples + 1;
   for (int64_t i = 0; i < n; i++) {
     double t = 2 * PI * (double)i / (double)samples;
@@ -22,7 +22,7 @@ static int64_t cosine(int64_t periods, int64_t samples, double a, double phase) 
 }
 
 TEST(extremes_of_a_cosine) {
-  assert_int_equal(cosine(10, 96, 0.7, -0.3), 20);
+  assert_int_equal(turning_cosine(10, 96, 0.7, -0.3), 20);
   for (int i = 0; i < 20; i++) {
     assert_true(fabs(found[i].time - (0.3 + PI * i)) < 1e-10);
     assert_true(fabs(found[i].angle - (i % 2 ? -0.7 : 0.7)) < 1e-13);
@@ -30,7 +30,7 @@ TEST(extremes_of_a_cosine) {
 }
 
 TEST(coarse_samples_keep_eight_digits) {
-  assert_int_equal(cosine(4, 24, 1.0, -0.1), 8);
+  assert_int_equal(turning_cosine(4, 24, 1.0, -0.1), 8);
   for (int i = 0; i < 8; i++) assert_true(fabs(fabs(found[i].angle) - 1) < 1e-9);
 }
 
@@ -53,6 +53,6 @@ TEST(a_sample_may_lie_on_the_turn) {
 }
 
 TEST(rest_never_turns) {
-  assert_int_equal(cosine(3, 32, 0, 0), 0);
+  assert_int_equal(turning_cosine(3, 32, 0, 0), 0);
   assert_int_equal(kz_turning_points(3, 0.1, theta, velocity, found), 0);
 }

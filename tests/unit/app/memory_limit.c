@@ -28,21 +28,22 @@ static void write_text(const char *name, const char *text) {
   assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
 }
 
-static double limit(const char *groups) {
+static double memory_limit_limit(const char *groups) {
   write_text("groups", groups);
   return kz_memory_limit("groups", ".");
 }
 
 TEST(both_versions_are_read) {
-  assert_true(limit("0::/user/a b\n") == 5000000);
-  assert_true(limit("5:devices:/\n4:memory:/job/step\n0::/\n") == 3000000);
-  assert_true(limit("4:memory:/job/step\n0::/user\n") == 3000000);
+  assert_true(memory_limit_limit("0::/user/a b\n") == 5000000);
+  assert_true(memory_limit_limit("5:devices:/\n4:memory:/job/step\n0::/\n") == 3000000);
+  assert_true(memory_limit_limit("4:memory:/job/step\n0::/user\n") == 3000000);
 }
 
 TEST(what_is_not_there_limits_nothing) {
-  assert_true(isinf(limit("0::/elsewhere/c\n")));
-  assert_true(isinf(limit("")) && isinf(limit("nonsense\n")) && isinf(kz_memory_limit("missing", ".")));
-  assert_true(limit("4:memory:/elsewhere\n") > 9e18);
+  assert_true(isinf(memory_limit_limit("0::/elsewhere/c\n")));
+  assert_true(isinf(memory_limit_limit("")) && isinf(memory_limit_limit("nonsense\n")) &&
+              isinf(kz_memory_limit("missing", ".")));
+  assert_true(memory_limit_limit("4:memory:/elsewhere\n") > 9e18);
 }
 
 static int set_up(void **state) {

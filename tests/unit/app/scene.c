@@ -91,11 +91,11 @@ TEST(resolved_text_is_a_fixed_point) {
   kz_scene scene;
   assert_int_equal(read_scene("title: 'say \"a\\b\"'\n" GOOD, "numerics={scheme: rk4, tolerance: 1e-9}", &scene),
                    KZ_OK);
-  char *once = resolved(&scene);
+  char *once = resolved_text(&scene);
   kz_scene_free(&scene);
   assert_int_equal(read_scene(once, NULL, &scene), KZ_OK);
   assert_string_equal(scene.title, "say \"a\\b\"");
-  char *twice = resolved(&scene);
+  char *twice = resolved_text(&scene);
   assert_string_equal(once, twice);
   assert_non_null(strstr(once, "\n  steps_per_period: auto\n"));
   free(once);

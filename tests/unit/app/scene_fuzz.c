@@ -29,7 +29,7 @@ static const char *const pieces[] = {
 
 /* xorshift64* (Vigna 2016). */
 static uint64_t state;
-static size_t draw(size_t n) {
+static size_t scene_fuzz_draw(size_t n) {
   state ^= state >> 12;
   state ^= state << 25;
   state ^= state >> 27;
@@ -37,7 +37,7 @@ static size_t draw(size_t n) {
 }
 
 /* Replaces `cut` bytes at `at` by `piece`; returns the new length. */
-static size_t splice(char *text, size_t length, size_t at, size_t cut, const char *piece, size_t n) {
+static size_t scene_fuzz_splice(char *text, size_t length, size_t at, size_t cut, const char *piece, size_t n) {
   if (cut > length - at) cut = length - at;
   if (length - cut + n >= LONGEST) return length;
   memmove(text + at + n, text + at + cut, length - at - cut);
@@ -45,30 +45,30 @@ static size_t splice(char *text, size_t length, size_t at, size_t cut, const cha
   return length - cut + n;
 }
 
-static size_t mutate(char *text, size_t length) {
+static size_t scene_fuzz_mutate(char *text, size_t length) {
   char copy[64];
-  const size_t at = draw(length + 1);
-  const char *piece = pieces[draw(sizeof pieces / sizeof pieces[0])];
-  const char byte = (char)draw(256);
-  const size_t from = draw(length + 1), n = draw(length - from + 1) % sizeof copy;
-  switch (draw(5)) {
+  const size_t at = scene_fuzz_draw(length + 1);
+  const char *piece = pieces[scene_fuzz_draw(sizeof pieces / sizeof pieces[0])];
+  const char byte = (char)scene_fuzz_draw(256);
+  const size_t from = scene_fuzz_draw(length + 1), n = scene_fuzz_draw(length - from + 1) % sizeof copy;
+  switch (scene_fuzz_draw(5)) {
     case 0:
-      return splice(text, length, at, 1, &byte, 1);
+      return scene_fuzz_splice(text, length, at, 1, &byte, 1);
     case 1:
-      return splice(text, length, at, draw(20), "", 0);
+      return scene_fuzz_splice(text, length, at, scene_fuzz_draw(20), "", 0);
     case 2:
       memcpy(copy, text + from, n);
-      return splice(text, length, at, 0, copy, n);
+      return scene_fuzz_splice(text, length, at, 0, copy, n);
     default:
-      return splice(text, length, at, draw(3), piece, strlen(piece));
+      return scene_fuzz_splice(text, length, at, scene_fuzz_draw(3), piece, strlen(piece));
   }
 }
 
 static void check_fixed_point(kz_scene *scene) {
-  char *once = resolved(scene);
+  char *once = resolved_text(scene);
   kz_scene_free(scene);
   if (kz_scene_read(once, strlen(once), "resolved", 0, NULL, scene) != KZ_OK) fail_msg("%s in\n%s", kz_message(), once);
-  char *twice = resolved(scene);
+  char *twice = resolved_text(scene);
   assert_string_equal(once, twice);
   free(once);
   free(twice);
@@ -89,19 +89,19 @@ static void check_input(const char *text, size_t length) {
   }
 }
 
-static size_t number(const char *name, size_t otherwise) {
+static size_t scene_fuzz_number(const char *name, size_t otherwise) {
   const char *value = getenv(name);
   return value ? strtoull(value, NULL, 10) : otherwise;
 }
 
 TEST(mutated_scenes_are_read_or_refused) {
-  state = number("KZ_FUZZ_SEED", 1) * 2654435769u + 1;
+  state = scene_fuzz_number("KZ_FUZZ_SEED", 1) * 2654435769u + 1;
   size_t read = 0;
-  for (size_t i = number("KZ_FUZZ_INPUTS", PART > 1 ? 1500 : 6000); i > 0; i--) {
+  for (size_t i = scene_fuzz_number("KZ_FUZZ_INPUTS", PART > 1 ? 1500 : 6000); i > 0; i--) {
     char text[LONGEST];
     size_t length = sizeof seed - 1;
     memcpy(text, seed, length);
-    for (size_t changes = draw(6); changes > 0; changes--) length = mutate(text, length);
+    for (size_t changes = scene_fuzz_draw(6); changes > 0; changes--) length = scene_fuzz_mutate(text, length);
     check_input(text, length);
     read += kz_message()[0] == '\0';
   }

@@ -10,14 +10,14 @@
 static const double PI = 3.14159265358979323846;
 
 /* Omega = 3 + 27 x, epsilon = 0.8 y, Q = 5. */
-static bool blackburn(const void *context, const double place[2], kz_pendulum *pendulum) {
+static bool curves_blackburn(const void *context, const double place[2], kz_pendulum *pendulum) {
   (void)context;
   const double omega = 3 + 27 * place[0];
   *pendulum = (kz_pendulum){1 / (omega * omega), 1 / (5 * omega), 0.8 * place[1]};
   return true;
 }
 static const kz_plane PLANE = {
-    .pendulum = blackburn, .low = {-0.06, -0.004}, .high = {1.06, 1.06}, .steps = 96, .mirrored = 1};
+    .pendulum = curves_blackburn, .low = {-0.06, -0.004}, .high = {1.06, 1.06}, .steps = 96, .mirrored = 1};
 static const double UP[2] = {0, 1};
 
 /* Omega; birth of flutter, loss of its symmetry, its doubling (docs/validation/studies.md). */
@@ -102,7 +102,7 @@ TEST(test_trace) {
     const kz_numerics fine = {.scheme = kz_scheme_find("split6"), .steps_per_period = 96};
     double theta = PI, velocity = 0, matrix[4];
     int64_t turns = 0;
-    assert_true(blackburn(NULL, row[i], &pendulum));
+    assert_true(curves_blackburn(NULL, row[i], &pendulum));
     kz_flow *flow = kz_flow_create(&pendulum, &fine);
     kz_advance_tangent(flow, 1, 1, &theta, &velocity, &turns, matrix);
     kz_flow_free(flow);
@@ -111,7 +111,7 @@ TEST(test_trace) {
 }
 
 /* k = 2.2 x - 0.6, beta = 0.1, m = 2 y: Butikov's plane. */
-static bool butikov(const void *context, const double place[2], kz_pendulum *pendulum) {
+static bool curves_butikov(const void *context, const double place[2], kz_pendulum *pendulum) {
   (void)context;
   *pendulum = (kz_pendulum){2.2 * place[0] - 0.6, 0.1, 2 * place[1]};
   return true;
@@ -122,7 +122,7 @@ static bool butikov(const void *context, const double place[2], kz_pendulum *pen
 TEST(test_trace_in_a_narrow_band) {
   enum { MOST = 300, N = 12, WIDTH = 8 + N };
   const kz_plane plane = {
-      .pendulum = butikov, .low = {-0.06, -0.004}, .high = {1.06, 1.06}, .steps = 96, .mirrored = 1};
+      .pendulum = curves_butikov, .low = {-0.06, -0.004}, .high = {1.06, 1.06}, .steps = 96, .mirrored = 1};
   const kz_curve_kind doubling = {1, 6, -1, 2, 0};
   const double place[2] = {(0.6 - 0.5309297007299472) / 2.2, 1.2948761672834188 / 2};
   double seed[N + 2] = {-0.13118270219777192, 0.10333998458147906}, row[MOST][WIDTH], special[4][3 + N];

@@ -11,7 +11,7 @@
 
 /* The four attractors of Fig. 13, whatever the seed: pairs are exact mirror images, ids do not depend on the search. */
 TEST(test_catalogue) {
-  kz_dynamics *a = explored(0.46, 1, 3), *b = explored(0.46, 77, 3);
+  kz_dynamics *a = explored_dynamics(0.46, 1, 3), *b = explored_dynamics(0.46, 77, 3);
   int64_t order_a[64], order_b[64], n = kz_dynamics_count(a);
   assert_int_equal(n, 4);
   assert_int_equal(kz_dynamics_count(b), n);
@@ -56,7 +56,7 @@ TEST(test_interpolation) {
   for (int points = 2; points <= 6; points += 4) {
     double error[2] = {0, 0};
     for (int fine = 0; fine < 2; fine++) {
-      kz_dynamics *d = kz_dynamics_create(&pendulum, numerics(), 4);
+      kz_dynamics *d = kz_dynamics_create(&pendulum, fine_numerics(), 4);
       double x[2 * N], y[2 * N];
       int32_t label[N];
       int64_t periods[N];
@@ -82,7 +82,8 @@ TEST(test_interpolation) {
 TEST(test_regions_know_no_order) {
   enum { N = 20000 / PART, CELLS = PART > 1 ? 150 : 300 };
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
-  kz_dynamics *a = explored_with(numerics(), 0.3, 1, CELLS, 3), *b = kz_dynamics_create(&pendulum, numerics(), 12);
+  kz_dynamics *a = explored_with(fine_numerics(), 0.3, 1, CELLS, 3),
+              *b = kz_dynamics_create(&pendulum, fine_numerics(), 12);
   const int64_t size = kz_dynamics_packed_size(a);
   double *packed = malloc((size_t)size * sizeof *packed), *x = malloc(2 * N * sizeof *x);
   int32_t *label_a = malloc(N * sizeof *label_a), *label_b = malloc(N * sizeof *label_b), trapped = 0;
@@ -116,7 +117,7 @@ TEST(test_chaos) {
   enum { N = 256 / PART };
   static const double TOP = 4.0 * 199 / 195; /* a cover's cells belong to a grid of this height */
   kz_pendulum pendulum = {0.25, 0.05, 0.5};
-  kz_dynamics *d = kz_dynamics_create(&pendulum, numerics(), 48);
+  kz_dynamics *d = kz_dynamics_create(&pendulum, fine_numerics(), 48);
   double x[2 * N];
   int32_t label[N];
   int64_t periods[N];
@@ -155,7 +156,7 @@ TEST(test_chaos) {
 TEST(test_sparse_looks) {
   enum { N = PART > 1 ? 64 : 512, MOST = 3000, LATER = 7 * 12 };
   const kz_pendulum pendulum = {1.0 / 121, 1.0 / 550, 0.3};
-  kz_dynamics *d = kz_dynamics_create(&pendulum, numerics(), 12);
+  kz_dynamics *d = kz_dynamics_create(&pendulum, fine_numerics(), 12);
   double x[2][2 * N];
   int32_t label[2][N];
   int64_t periods[2][N], later = 0, settled = 0;
@@ -215,7 +216,7 @@ TEST(test_quasi_periodic_motions_are_no_chaos) {
   const double tops[] = {1.5, 5};
   if (PART > 1) return; /* test_chaos shows the sanitizers the same code */
   for (int i = 0; i < 2; i++) {
-    kz_dynamics *d = kz_dynamics_create(&pendulum, numerics(), 48);
+    kz_dynamics *d = kz_dynamics_create(&pendulum, fine_numerics(), 48);
     double x[2] = {0.5, 4}, *found = calloc((size_t)kz_dynamics_chaos_size(), sizeof *found);
     kz_dynamics_coarse_regions(d, tops[i]);
     kz_dynamics_find_chaos(d, x, found);

@@ -10,7 +10,7 @@
 /* Mirrored starts get mirrored labels and equal settling times; a cell outside the table is integrated, not guessed. */
 TEST(test_mirrored_labels) {
   enum { N = 1000 };
-  kz_dynamics *d = explored(0.46, 1, 3);
+  kz_dynamics *d = explored_dynamics(0.46, 1, 3);
   with_table(d, 400, 3);
   assert_true(kz_dynamics_trapped_share(d) > 0.2);
   double *x = malloc(2 * N * sizeof *x), *y = malloc(2 * N * sizeof *y);
@@ -39,7 +39,7 @@ TEST(test_mirrored_labels) {
 }
 
 /* The processed splitting as kz_numerics_choose finds it for a window and an error of a period. */
-static kz_numerics processed(double m, double tolerance) {
+static kz_numerics labels_processed(double m, double tolerance) {
   const kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, m};
   kz_numerics numerics = {0};
   double error;
@@ -62,7 +62,7 @@ TEST(test_processed) {
   static int64_t periods[N], late[N];
   if (PART > 1) return; /* the other tests of this file show the sanitizers the same code */
   for (int c = 0; c < 2; c++) {
-    const kz_numerics numerics = processed(cases[c].m, 1e-12);
+    const kz_numerics numerics = labels_processed(cases[c].m, 1e-12);
     kz_dynamics *reference = explored_with(&fine, cases[c].m, 1, 0, 3),
                 *d = explored_with(&numerics, cases[c].m, 1, 0, 3);
     int unlike = 0, unlike_cells = 0;
@@ -124,8 +124,8 @@ TEST(test_regions_are_right) {
   static int32_t label[N], expected[N];
   static int64_t periods[N], late[N];
   for (int c = 0; c < (PART > 1 ? 1 : 3); c++) {
-    kz_dynamics *d = explored_pendulum(pendulums + c, numerics(), 1, 0, 3.0),
-                *plain = explored_pendulum(pendulums + c, numerics(), 1, 0, 3.0);
+    kz_dynamics *d = explored_pendulum(pendulums + c, fine_numerics(), 1, 0, 3.0),
+                *plain = explored_pendulum(pendulums + c, fine_numerics(), 1, 0, 3.0);
     kz_dynamics_fine_regions(d, PART > 1 ? 200 : 400, 3.0);
     int inside = 0;
     kz_dynamics_starts(&WINDOW, 9, N, x);
@@ -151,7 +151,7 @@ TEST(test_wrong_labels_are_doubtful) {
   static double start[2 * N], x[2 * N], y[2 * N];
   static int32_t direct[N], followed[N], expected[N];
   static int64_t periods[N];
-  kz_dynamics *d = explored(0.46, 1, 3);
+  kz_dynamics *d = explored_dynamics(0.46, 1, 3);
   with_table(d, 400, 3);
   int wrong = 0, doubtful = 0;
   kz_dynamics_starts(&WINDOW, 3, N, x);
@@ -196,7 +196,7 @@ TEST(test_quads_decide_after_pairs_what_they_decide_alone) {
   int64_t left = N;
   int decided = 0;
   if (PART > 1) return; /* other tests show the sanitizers the same code */
-  kz_dynamics *d = explored(0.46, 1, 3);
+  kz_dynamics *d = explored_dynamics(0.46, 1, 3);
   kz_dynamics_fine_regions(d, 400, 3);
   kz_dynamics_starts(&WINDOW, 3, N, x);
   for (int i = 0; i < N; i++) start[i] = (kz_start){.theta = {x[2 * i] * M_PI, 0}, .velocity = {x[2 * i + 1], 0}};
@@ -233,9 +233,9 @@ TEST(test_regions_hold_whole_ellipses) {
   static int64_t periods[2 * N];
   int64_t n = 0, turns = 0;
   if (PART > 1) return; /* other tests show the sanitizers the same code */
-  kz_dynamics *d = explored(0.46, 1, 3);
+  kz_dynamics *d = explored_dynamics(0.46, 1, 3);
   with_table(d, 400, 3);
-  kz_flow *flow = kz_flow_create(&(kz_pendulum){1.0 / 121, 1.0 / 55, 0.46}, numerics());
+  kz_flow *flow = kz_flow_create(&(kz_pendulum){1.0 / 121, 1.0 / 55, 0.46}, fine_numerics());
   kz_dynamics_starts(&WINDOW, 3, N, x);
   for (int i = 0; i < N; i++) starts[i] = (kz_start){.theta = {x[2 * i] * M_PI}, .velocity = {x[2 * i + 1]}};
   kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_DOUBLE}, N, starts, 2000, decision);
@@ -266,7 +266,7 @@ TEST(test_growth_foretells_the_level) {
   static double x[2 * N];
   static kz_start start[N], left[2][N];
   static kz_decision decision[N];
-  const kz_numerics numerics = processed(0.46, 1e-13);
+  const kz_numerics numerics = labels_processed(0.46, 1e-13);
   int64_t n[2] = {0};
   if (PART > 1) return; /* other tests show the sanitizers the same code */
   kz_dynamics *d = explored_with(&numerics, 0.46, 1, 0, 3);
@@ -300,9 +300,9 @@ TEST(test_turns_are_those_of_the_angle) {
   static kz_decision decision[LEVELS][2 * N];
   int counted = 0, turned = 0;
   if (PART > 1) return; /* other tests show the sanitizers the same code */
-  kz_dynamics *d = explored(0.3, 1, 3);
+  kz_dynamics *d = explored_dynamics(0.3, 1, 3);
   kz_dynamics_fine_regions(d, 400, 3);
-  kz_flow *flow = kz_flow_create(&(kz_pendulum){1.0 / 121, 1.0 / 55, 0.3}, numerics());
+  kz_flow *flow = kz_flow_create(&(kz_pendulum){1.0 / 121, 1.0 / 55, 0.3}, fine_numerics());
   kz_dynamics_starts(&WINDOW, 3, N, x);
   for (int i = 0; i < N; i++) { /* some are given a turn too far */
     start[i] = (kz_start){.theta = {x[2 * i] * M_PI + (i % 8 ? 0 : 2 * M_PI)}, .velocity = {x[2 * i + 1]}};

@@ -28,14 +28,14 @@ static const kz_release releases[] = {{.phase = 1, .damping = 0.1, .drive = 1},
                                       {.phase = 6, .periods = 1, .damping = 0, .drive = 1, .smooth = 1}};
 enum { RELEASES = sizeof releases / sizeof *releases };
 
-static kz_arbitrary *released(const kz_release *release, double theta, double velocity) {
+static kz_arbitrary *released_released(const kz_release *release, double theta, double velocity) {
   const kz_coordinate start[2] = {{.high = theta}, {.high = velocity}};
   kz_arbitrary *orbit = kz_arbitrary_create(&pendulum, start, BITS);
   kz_arbitrary_release(orbit, release);
   return orbit;
 }
 
-static void advance(kz_arbitrary *orbit, int64_t periods, kz_jet *jet) {
+static void released_advance(kz_arbitrary *orbit, int64_t periods, kz_jet *jet) {
   for (int64_t i = 0; i < periods; i++) assert_int_equal(kz_arbitrary_advance(orbit, BITS, jet ? 3 : 0, jet), KZ_OK);
 }
 
@@ -47,13 +47,14 @@ TEST(many_digits_agree_with_quads) {
     kz_start start[STARTS] = {
         {.theta = {0.7}, .velocity = {1.42}}, {.theta = {-2.5}, .velocity = {-1}}, {.theta = {3.1}}};
     kz_arbitrary *orbit[STARTS];
-    for (int j = 0; j < STARTS; j++) orbit[j] = released(releases + i, start[j].theta[0], start[j].velocity[0]);
+    for (int j = 0; j < STARTS; j++)
+      orbit[j] = released_released(releases + i, start[j].theta[0], start[j].velocity[0]);
     kz_dynamics_set_release(d, releases + i);
     kz_dynamics_begin(d, KZ_LEVEL_QUAD, STARTS, start);
     for (int j = 0; j < STARTS; j++) {
       double theta[2], velocity[2];
       assert_int_equal(start[j].periods, kz_release_strobes(releases + i));
-      advance(orbit[j], start[j].periods, NULL);
+      released_advance(orbit[j], start[j].periods, NULL);
       kz_arbitrary_read(orbit[j], theta, velocity);
       assert_true(fabs(remainder(start[j].theta[0] - theta[0], 2 * M_PI) + (start[j].theta[1] - theta[1])) < 1e-28);
       assert_true(fabs((start[j].velocity[0] - velocity[0]) + (start[j].velocity[1] - velocity[1])) < 1e-28);
@@ -73,12 +74,12 @@ TEST(neighbours_follow_the_jet) {
     kz_jet jet = {.linear = {{1, 0}, {0, 1}}}, alone = jet;
     double x[3][2][2];
     for (int j = 0; j < 3; j++) {
-      kz_arbitrary *orbit = released(releases + i, 0.75 + (j < 2 ? h * (1 - 2 * j) : 0), 1.5);
-      advance(orbit, n, j == 2 ? &jet : NULL);
+      kz_arbitrary *orbit = released_released(releases + i, 0.75 + (j < 2 ? h * (1 - 2 * j) : 0), 1.5);
+      released_advance(orbit, n, j == 2 ? &jet : NULL);
       kz_arbitrary_read(orbit, x[j][0], x[j][1]);
       kz_arbitrary_free(orbit);
     }
-    kz_arbitrary *orbit = released(releases + i, 0.75, 1.5);
+    kz_arbitrary *orbit = released_released(releases + i, 0.75, 1.5);
     for (int64_t period = 0; period < n; period++)
       assert_int_equal(kz_arbitrary_advance(orbit, BITS, 1, &alone), KZ_OK);
     kz_arbitrary_free(orbit);
@@ -96,13 +97,13 @@ TEST(neighbours_follow_the_jet) {
 
 /* A checkpoint in the middle of a ramp. */
 TEST(a_kept_orbit_goes_on) {
-  kz_arbitrary *orbit = released(releases + 1, 0.7, 1.4), *again = released(releases + 1, 0, 0);
+  kz_arbitrary *orbit = released_released(releases + 1, 0.7, 1.4), *again = released_released(releases + 1, 0, 0);
   char *text[2] = {malloc(kz_arbitrary_size(orbit)), malloc(kz_arbitrary_size(orbit))};
-  advance(orbit, 2, NULL);
+  released_advance(orbit, 2, NULL);
   kz_arbitrary_write(orbit, text[0]);
   assert_int_equal(kz_arbitrary_restore(again, text[0]), KZ_OK);
-  advance(orbit, 2, NULL);
-  advance(again, 2, NULL);
+  released_advance(orbit, 2, NULL);
+  released_advance(again, 2, NULL);
   kz_arbitrary_write(orbit, text[0]);
   kz_arbitrary_write(again, text[1]);
   assert_memory_equal(text[0], text[1], kz_arbitrary_size(orbit));

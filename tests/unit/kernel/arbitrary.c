@@ -25,23 +25,23 @@ static const kz_pendulum pendulums[] = {{.k = 0.1, .beta = 0.1, .m = 0.4},
                                          .unmirrored = 1}};
 static kz_pendulum strong; /* Pendulum of the present group of tests */
 
-static kz_coordinate at(double value) {
+static kz_coordinate arbitrary_at(double value) {
   return (kz_coordinate){.high = value};
 }
 
 static kz_arbitrary *orbit_at(double theta, double velocity, int64_t bits) {
-  const kz_coordinate start[2] = {at(theta), at(velocity)};
+  const kz_coordinate start[2] = {arbitrary_at(theta), arbitrary_at(velocity)};
   kz_arbitrary *orbit = kz_arbitrary_create(&strong, start, bits);
   assert_non_null(orbit);
   return orbit;
 }
 
-static void advance(kz_arbitrary *orbit, int periods, int64_t bits, kz_jet *jet) {
+static void arbitrary_advance(kz_arbitrary *orbit, int periods, int64_t bits, kz_jet *jet) {
   for (int i = 0; i < periods; i++) assert_int_equal(kz_arbitrary_advance(orbit, bits, jet ? 3 : 0, jet), KZ_OK);
 }
 
 /* The distance of two states as their pairs tell it. */
-static double distance(const kz_arbitrary *a, const kz_arbitrary *b) {
+static double arbitrary_distance(const kz_arbitrary *a, const kz_arbitrary *b) {
   double theta[2][2], velocity[2][2];
   kz_arbitrary_read(a, theta[0], velocity[0]);
   kz_arbitrary_read(b, theta[1], velocity[1]);
@@ -50,8 +50,8 @@ static double distance(const kz_arbitrary *a, const kz_arbitrary *b) {
 }
 
 /* rad: how far a period in quad precision is from the motion. */
-static double missed(const kz_pendulum *pendulum, double theta, double velocity) {
-  const kz_coordinate start[2] = {at(theta), at(velocity)};
+static double arbitrary_missed(const kz_pendulum *pendulum, double theta, double velocity) {
+  const kz_coordinate start[2] = {arbitrary_at(theta), arbitrary_at(velocity)};
   kz_arbitrary *orbit = kz_arbitrary_create(pendulum, start, 200);
   kz_reference_state quad;
   __float128 end[2], state[2];
@@ -85,7 +85,8 @@ TEST(errors_of_quads_are_not_understated) {
     const double told = kz_reference_error(strong_drives + p, 13);
     double largest = 0;
     for (int i = 0; i < 3; i++)
-      largest = fmax(largest, missed(strong_drives + p, starts[i][0], starts[i][1]) / hypot(M_PI, starts[i][1]));
+      largest =
+          fmax(largest, arbitrary_missed(strong_drives + p, starts[i][0], starts[i][1]) / hypot(M_PI, starts[i][1]));
     print_message("m %g: %.1e, told %.1e\n", strong_drives[p].m, largest, told);
     assert_true(largest <= told);
     assert_true(told < (p == 0 ? 1e-30 : 1e-32)); /* the second at 1e-31 left half as many more undecided */
@@ -95,16 +96,16 @@ TEST(errors_of_quads_are_not_understated) {
 /* Fewer bits leave out some units of the last bit. */
 TEST(more_digits_agree) {
   kz_arbitrary *orbit = orbit_at(-2.3, 17, 400), *coarse = orbit_at(-2.3, 17, 400);
-  advance(orbit, 4, 400, NULL);
-  advance(coarse, 4, 200, NULL);
+  arbitrary_advance(orbit, 4, 400, NULL);
+  arbitrary_advance(coarse, 4, 200, NULL);
   /* their difference is below what pairs show; their texts begin alike */
-  assert_true(distance(orbit, coarse) < 1e-31);
+  assert_true(arbitrary_distance(orbit, coarse) < 1e-31);
   char *text = malloc(kz_arbitrary_size(orbit));
   kz_arbitrary_write(orbit, text);
   kz_arbitrary *again = orbit_at(0, 0, 400);
   assert_int_equal(kz_arbitrary_restore(again, text), KZ_OK);
-  advance(orbit, 1, 400, NULL);
-  advance(again, 1, 400, NULL);
+  arbitrary_advance(orbit, 1, 400, NULL);
+  arbitrary_advance(again, 1, 400, NULL);
   char *other = malloc(kz_arbitrary_size(orbit));
   kz_arbitrary_write(orbit, text);
   kz_arbitrary_write(again, other);
@@ -151,8 +152,8 @@ TEST(neighbours_follow_the_jet) {
     const double scale = i == 0 ? 1e-4 : 1e-9, bound = i == 0 ? 3e-11 : 1e-28;
     kz_arbitrary *centre = orbit_at(0.7, 1.42, 160), *beside = orbit_at(0.7 + scale, 1.42 - scale, 160);
     kz_jet jet = {.linear = {{1, 0}, {0, 1}}};
-    advance(centre, 3, 160, &jet);
-    advance(beside, 3, 160, NULL);
+    arbitrary_advance(centre, 3, 160, &jet);
+    arbitrary_advance(beside, 3, 160, NULL);
     double a[2][2], b[2][2];
     kz_arbitrary_read(centre, a[0], a[1]);
     kz_arbitrary_read(beside, b[0], b[1]);
@@ -172,7 +173,7 @@ TEST(areas_shrink_at_any_scale) {
   for (int i = 0; i < 2; i++) {
     kz_arbitrary *orbit = orbit_at(2.1, -0.4, 200);
     kz_jet jet = {.linear = {{scale[i], 0}, {0, scale[i]}}};
-    advance(orbit, 5, 200, &jet);
+    arbitrary_advance(orbit, 5, 200, &jet);
     const __float128 det = jet.linear[0][0] * jet.linear[1][1] - jet.linear[0][1] * jet.linear[1][0];
     assert_true(fabs((double)(det / scale[i] / scale[i]) / exp(-10 * M_PI * strong.beta) - 1) <= 1e-13);
     for (int part = 3; part < KZ_HIGHER_TERMS; part++) assert_true(jet.higher_terms[0][part] != 0);
@@ -186,8 +187,8 @@ TEST(neighbours_of_rest_move) {
   kz_arbitrary *rest = orbit_at(0, 0, 160), *beside = orbit_at(1e-12, 0, 160);
   kz_jet jet = {.linear = {{1, 0}, {0, 1}}};
   double theta[2], velocity[2];
-  advance(rest, 2, 160, &jet);
-  advance(beside, 2, 160, NULL);
+  arbitrary_advance(rest, 2, 160, &jet);
+  arbitrary_advance(beside, 2, 160, NULL);
   kz_arbitrary_read(beside, theta, velocity);
   assert_true(fabs(theta[0] - 1e-12 * (double)jet.linear[0][0]) < 1e-27);
   assert_true(fabs(velocity[0] - 1e-12 * (double)jet.linear[1][0]) < 1e-27);
@@ -211,8 +212,8 @@ TEST(mirror_images_stay_mirrored) {
   if (strong.unmirrored) skip();
   kz_arbitrary *orbit = orbit_at(2.5, 3.2, 180), *mirror = orbit_at(-2.5, -3.2, 180);
   double a[2][2], b[2][2];
-  advance(orbit, 3, 180, NULL);
-  advance(mirror, 3, 180, NULL);
+  arbitrary_advance(orbit, 3, 180, NULL);
+  arbitrary_advance(mirror, 3, 180, NULL);
   kz_arbitrary_read(orbit, a[0], a[1]);
   kz_arbitrary_read(mirror, b[0], b[1]);
   for (int i = 0; i < 4; i++) assert_true(a[i / 2][i % 2] == -b[i / 2][i % 2]);

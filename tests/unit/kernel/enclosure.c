@@ -15,19 +15,22 @@
 
 enum { SETS = 16, PERIODS = 3, DRAWS = PART > 1 ? 5 : 10 };
 
-static double uniform(double from, double to) {
+static double enclosure_uniform(double from, double to) {
   return from + (to - from) * rand() / RAND_MAX;
 }
 
 /* With a drive across, overtones and a torque; every second one is mirrored. */
 static kz_pendulum some_drive(int draw) {
-  kz_pendulum p = {.k = uniform(-0.05, 0.3), .beta = uniform(0, 0.1), .m = uniform(-0.6, 0.6), .harmonics = 7};
+  kz_pendulum p = {.k = enclosure_uniform(-0.05, 0.3),
+                   .beta = enclosure_uniform(0, 0.1),
+                   .m = enclosure_uniform(-0.6, 0.6),
+                   .harmonics = 7};
   for (int j = 0; j < p.harmonics; j++)
-    for (int i = 0; i < 2; i++) p.vertical[j][i] = uniform(-0.1, 0.1) / (j + 1);
+    for (int i = 0; i < 2; i++) p.vertical[j][i] = enclosure_uniform(-0.1, 0.1) / (j + 1);
   if (draw % 8 == 1) return p;
-  for (int i = 0; i < 6; i++) p.horizontal[i / 2][i % 2] = uniform(-0.1, 0.1);
-  p.torque = uniform(-0.1, 0.1);
-  p.torque_amplitude = uniform(-0.3, 0.3);
+  for (int i = 0; i < 6; i++) p.horizontal[i / 2][i % 2] = enclosure_uniform(-0.1, 0.1);
+  p.torque = enclosure_uniform(-0.1, 0.1);
+  p.torque_amplitude = enclosure_uniform(-0.3, 0.3);
   p.unmirrored = 1;
   return p;
 }
@@ -37,7 +40,7 @@ static kz_pendulum some_pendulum(int draw) {
       {1.0 / 121, 1.0 / 55, 0.3}, {-0.2, 0.01, 0.7}, {0, 0.3, 0.5}, {0.3, 0, -0.6}, {0.1, 1.2, 2}};
   if (draw % 2 == 0) return chosen[draw / 2 % 5];
   if (draw % 4 == 1) return some_drive(draw);
-  return (kz_pendulum){uniform(-0.05, 0.3), uniform(0, 0.1), uniform(-0.6, 0.6)};
+  return (kz_pendulum){enclosure_uniform(-0.05, 0.3), enclosure_uniform(0, 0.1), enclosure_uniform(-0.6, 0.6)};
 }
 
 /* Moves n states, at most 2 SETS, through some periods in quad precision: many at once, since each call makes tables
@@ -52,8 +55,8 @@ static void move_truly(const kz_pendulum *pendulum, int n, int64_t periods, quad
 /* Sets at random starts, or where adversary: at turning points of the sine and of the torque's sign. */
 static void place_sets(double fastest, double half, kz_enclosure begin[SETS]) {
   for (int i = 0; i < SETS; i++) {
-    const double theta = i % 4 ? uniform(-M_PI, M_PI) : (i % 8 ? M_PI / 2 : M_PI) * (i % 16 < 8 ? 1 : -1);
-    begin[i] = set_at(theta, i % 5 ? uniform(-fastest, fastest) : fastest * (i % 2 ? 1 : -1), half);
+    const double theta = i % 4 ? enclosure_uniform(-M_PI, M_PI) : (i % 8 ? M_PI / 2 : M_PI) * (i % 16 < 8 ? 1 : -1);
+    begin[i] = set_at(theta, i % 5 ? enclosure_uniform(-fastest, fastest) : fastest * (i % 2 ? 1 : -1), half);
   }
 }
 
@@ -129,7 +132,7 @@ TEST(taylors_rest_is_needed) {
 }
 
 /* The bounds of a lemma of docs/explanation/bounds.md, of all classes of speeds, times `left`. */
-static void cut(const kz_enclosure_tables *plan, int lemma, double left) {
+static void enclosure_cut(const kz_enclosure_tables *plan, int lemma, double left) {
   for (int c = 0; c < plan->n_classes; c++) {
     kz_speed_class *speed = plan->classes[c];
     double *const bound[] = {[3] = &speed->velocity_error,
@@ -148,7 +151,7 @@ static double farthest_of_points(const kz_pendulum *pendulum, int32_t precision,
   kz_enclosure_tables *plan = plan_for(pendulum, precision, fastest);
   kz_arbitrary *orbit[SETS];
   double farthest = 0, z[2];
-  cut(plan, 3, left);
+  enclosure_cut(plan, 3, left);
   for (int i = 0; i < SETS; i++) {
     const kz_coordinate start[2] = {{.high = set[i].theta[0]}, {.high = set[i].velocity[0]}};
     orbit[i] = kz_arbitrary_create(pendulum, start, 200);
@@ -194,7 +197,8 @@ TEST(far_angles_hold_the_motion) {
   for (int32_t precision = 0; precision < KZ_ENCLOSURES; precision++)
     for (double distance = 10; distance < 2e6; distance *= 1e4) {
       kz_enclosure set[SETS];
-      for (int i = 0; i < SETS; i++) set[i] = set_at(uniform(-distance, distance), uniform(-3, 3), 0);
+      for (int i = 0; i < SETS; i++)
+        set[i] = set_at(enclosure_uniform(-distance, distance), enclosure_uniform(-3, 3), 0);
       assert_true(farthest_of_points(&pendulum, precision, 3, 1, 1, set) < 1);
     }
 }
@@ -275,7 +279,7 @@ TEST(each_bound_is_needed) {
     kz_enclosure_tables *plan = plan_for(&pendulum, cases[i].precision, 2);
     for (int is_cut = 0; is_cut < 2; is_cut++) {
       double bent;
-      if (is_cut) cut(plan, cases[i].lemma, cases[i].left);
+      if (is_cut) enclosure_cut(plan, cases[i].lemma, cases[i].left);
       srand(3);
       const double share = share_of_growth(&pendulum, plan, cases[i].half, &bent);
       assert_true(((cases[i].lemma == 4 ? bent : share) < 1) == !is_cut); /* two corners share their centre's error */

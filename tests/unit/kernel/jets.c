@@ -16,7 +16,7 @@ static const double PI = 3.14159265358979323846;
 static const double STARTS[][2] = {{0.3, 0.1}, {-2, 0.7}, {3, -1.2}};
 
 /* All numbers of the drive in use: damping, torque, harmonics of both drives; and the directions of p and q. */
-static void pendulums(kz_pendulum pendulum[3]) {
+static void jets_pendulums(kz_pendulum pendulum[3]) {
   pendulum[0] = (kz_pendulum){
       .k = 0.1, .beta = 0.09, .m = 0.6, .torque = 0.02, .torque_amplitude = 0.3, .harmonics = 2, .unmirrored = 1};
   pendulum[1] = (kz_pendulum){.k = -0.3, .beta = 0.4, .m = 0.2, .torque = 0.5, .torque_amplitude = -0.4};
@@ -34,7 +34,7 @@ TEST(test_arbitrary) {
   kz_pendulum pendulum[3] = {{.k = 0.1, .beta = 0.09, .m = 0.6}};
   for (int all = 0; all < 6; all++) {
     const int i = all % 3;
-    if (all == 3) pendulums(pendulum);
+    if (all == 3) jets_pendulums(pendulum);
     double x[2] = {STARTS[i][0], STARTS[i][1]}, got[TERMS][2];
     const kz_coordinate start[2] = {{.high = x[0]}, {.high = x[1]}};
     kz_jet jet = {.linear = {{1, 0}, {0, 1}}};
@@ -53,8 +53,8 @@ TEST(test_arbitrary) {
 }
 
 /* The pendulum itself and its tangent, d times along direction `along` (0: none). */
-static void shifted(const kz_pendulum *pendulum, int along, double d, const double start[2], double image[2],
-                    double got[][2]) {
+static void jets_shifted(const kz_pendulum *pendulum, int along, double d, const double start[2], double image[2],
+                         double got[][2]) {
   kz_pendulum moved[3] = {pendulum[0], pendulum[1], pendulum[2]};
   if (along) {
     const kz_pendulum *by = pendulum + along;
@@ -72,13 +72,13 @@ static void shifted(const kz_pendulum *pendulum, int along, double d, const doub
 TEST(test_differences) {
   kz_pendulum pendulum[3];
   const double d = 1e-4;
-  pendulums(pendulum);
+  jets_pendulums(pendulum);
   for (int i = 0; i < 3; i++)
     for (int along = 1; along <= 2; along++) {
       double here[2], up[2], down[2], at[TERMS][2], above[TERMS][2], below[TERMS][2];
-      shifted(pendulum, 0, 0, STARTS[i], here, at);
-      shifted(pendulum, along, d, STARTS[i], up, above);
-      shifted(pendulum, along, -d, STARTS[i], down, below);
+      jets_shifted(pendulum, 0, 0, STARTS[i], here, at);
+      jets_shifted(pendulum, along, d, STARTS[i], up, above);
+      jets_shifted(pendulum, along, -d, STARTS[i], down, below);
       for (int r = 0; r < 2; r++) {
         const int mixed = along == 1 ? 7 : 9; /* xp, yp or xq, yq */
         const double by = (up[r] - down[r]) / (2 * d);
@@ -95,7 +95,7 @@ TEST(test_differences) {
 TEST(test_published) {
   for (int drive = 0; drive < 2; drive++) {
     kz_pendulum pendulum[3] = {{.k = 1.0 / 121, .beta = 1.0 / 55, .m = 0.5}, {.k = 1}, {.m = 1}};
-    if (drive) pendulums(pendulum);
+    if (drive) jets_pendulums(pendulum);
     const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = STEPS};
     kz_flow *flow = kz_flow_create(pendulum, &numerics);
     for (int i = 0; i < 3; i++) {

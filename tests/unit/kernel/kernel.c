@@ -15,7 +15,7 @@ static const double EPSILON = 0x1p-53;
 
 enum { N = 200 };
 
-static void starts(double *theta, double *velocity, int64_t *turns) {
+static void kernel_starts(double *theta, double *velocity, int64_t *turns) {
   for (int i = 0; i < N; i++) {
     theta[i] = fmod(0.7548776662 * (i + 1), 1.0) * 6.2 - 3.1;
     velocity[i] = fmod(0.5698402910 * (i + 1), 1.0) * 4 - 2;
@@ -44,7 +44,7 @@ static kz_flow *flow_of(int scheme, int steps) {
 
 /* Drives beyond k - m cos t, which rk4 does not know; number DRIVES is the sine. */
 enum { DRIVES = 4 };
-static kz_pendulum drive(int which) {
+static kz_pendulum kernel_drive(int which) {
   if (which == DRIVES) return PENDULUM;
   kz_pendulum p = {.k = 0.05, .beta = 0.1, .m = 0.4};
   if (which == 0) p.harmonics = 2, p.vertical[1][0] = 0.2, p.vertical[1][1] = -0.1;
@@ -77,12 +77,12 @@ TEST(test_mirror) {
   for (int way = 0; way < (DRIVES + 1) * kz_scheme_count(); way++) {
     const int scheme = way / (DRIVES + 1), which = way % (DRIVES + 1);
     if (scheme == 0 && which < DRIVES) continue;
-    const kz_pendulum pendulum = drive(which);
+    const kz_pendulum pendulum = kernel_drive(which);
     double a[N], va[N], b[N], vb[N];
     int64_t ta[N], tb[N];
     int mirrored = 0;
     kz_flow *flow = flow_under(&pendulum, scheme, 16);
-    starts(a, va, ta);
+    kernel_starts(a, va, ta);
     memcpy(tb, ta, sizeof tb);
     for (int i = 0; i < N; i++) b[i] = -a[i], vb[i] = -va[i];
     kz_advance(flow, N, 5, a, va, ta);
@@ -99,12 +99,12 @@ TEST(test_lanes) {
     double a[N], va[N];
     int64_t ta[N];
     kz_flow *flow = flow_of(scheme, 24);
-    starts(a, va, ta);
+    kernel_starts(a, va, ta);
     kz_advance(flow, N, 7, a, va, ta);
     for (int i = 0; i < N; i += 9) {
       double b[N], vb[N];
       int64_t tb[N];
-      starts(b, vb, tb);
+      kernel_starts(b, vb, tb);
       kz_advance(flow, 1, 7, b + i, vb + i, tb + i);
       assert_true(a[i] == b[i] && va[i] == vb[i] && ta[i] == tb[i]);
     }
@@ -118,12 +118,12 @@ TEST(test_tangent_lanes) {
     double a[N], va[N], matrix[N][4], b[N], vb[N], alone[4];
     int64_t ta[N], tb[N];
     kz_flow *flow = flow_of(scheme, 24);
-    starts(a, va, ta);
-    starts(b, vb, tb);
+    kernel_starts(a, va, ta);
+    kernel_starts(b, vb, tb);
     kz_advance_tangent(flow, N, 7, a, va, ta, matrix[0]);
     kz_advance(flow, N, 7, b, vb, tb);
     for (int i = 0; i < N; i++) assert_true(a[i] == b[i] && va[i] == vb[i] && ta[i] == tb[i]);
-    starts(b, vb, tb);
+    kernel_starts(b, vb, tb);
     for (int i = 0; i < N; i += 9) {
       kz_advance_tangent(flow, 1, 7, b + i, vb + i, tb + i, alone);
       assert_memory_equal(alone, matrix[i], sizeof alone);
@@ -139,11 +139,11 @@ TEST(test_determinant) {
   for (int way = 0; way < (DRIVES + 1) * kz_scheme_count(); way++) {
     const int scheme = way / (DRIVES + 1), which = way % (DRIVES + 1);
     if (scheme == 0 && which < DRIVES) continue;
-    const kz_pendulum pendulum = drive(which);
+    const kz_pendulum pendulum = kernel_drive(which);
     double theta[N], velocity[N], matrix[N][4];
     int64_t turns[N];
     kz_flow *flow = flow_under(&pendulum, scheme, scheme == 0 ? 400 : which < DRIVES ? 150 : 24);
-    starts(theta, velocity, turns);
+    kernel_starts(theta, velocity, turns);
     kz_advance_tangent(flow, N, 1, theta, velocity, turns, matrix[0]);
     for (int i = 0; i < N; i++) {
       double determinant = matrix[i][0] * matrix[i][3] - matrix[i][1] * matrix[i][2];
@@ -215,14 +215,14 @@ TEST(test_drives) {
   static const char *const schemes[] = {"split6", "processed"};
   static const int32_t steps[] = {192, 150};
   for (int which = 0; which < DRIVES; which += PART > 1 ? 2 : 1) {
-    const kz_pendulum p = drive(which);
+    const kz_pendulum p = kernel_drive(which);
     double theta[N], velocity[N], x[N], v[N];
     int64_t turns[N];
-    starts(theta, velocity, turns);
+    kernel_starts(theta, velocity, turns);
     true_period(&p, 40, theta, velocity, turns);
     for (int scheme = 0; scheme < 2; scheme++) {
       kz_flow *flow = flow_under(&p, kz_scheme_find(schemes[scheme]), steps[scheme]);
-      starts(x, v, turns);
+      kernel_starts(x, v, turns);
       kz_advance(flow, 40, 1, x, v, turns);
       kz_flow_free(flow);
       for (int i = 0; i < 40; i++)
@@ -267,7 +267,7 @@ TEST(test_tangent) {
   for (int way = 0; way < (DRIVES + 1) * kz_scheme_count(); way++) {
     const int scheme = way / (DRIVES + 1), which = way % (DRIVES + 1);
     if (scheme == 0 && which < DRIVES) continue;
-    const kz_pendulum pendulum = drive(which);
+    const kz_pendulum pendulum = kernel_drive(which);
     kz_flow *flow = flow_under(&pendulum, scheme, 24);
     double theta = 0.7, velocity = -0.3, matrix[4], x[4] = {0.7 + h, 0.7 - h, 0.7, 0.7},
            v[4] = {-0.3, -0.3, -0.3 + h, -0.3 - h};

@@ -29,7 +29,7 @@ TEST(curve_2_is_flutter) {
 }
 
 /* The energy of the slow motion by the closed form of the potential of BSG Eq. (10). */
-static double energy(const kz_pendulum *p, double angle, double v) {
+static double models_energy(const kz_pendulum *p, double angle, double v) {
   double u = 1 - p->k * cos(angle), first = 1 - p->k;
   double g = 0.5 * log((u * u + p->beta * p->beta) / (first * first + p->beta * p->beta)) - (u - first);
   if (p->beta > 0) g += p->beta * (atan(u / p->beta) - atan(first / p->beta));
@@ -39,8 +39,8 @@ static double energy(const kz_pendulum *p, double angle, double v) {
 TEST(slow_motion_keeps_its_energy) {
   const kz_pendulum pendulum = {1.0 / 9, 0, 0.6};
   kz_sample_model(KZ_EFFECTIVE, &pendulum, PERIODS, SAMPLES, (double[]){2.0, 0.3}, theta, velocity);
-  const double start = energy(&pendulum, 2.0, 0.3);
-  for (int i = 0; i < ALL; i++) assert_true(fabs(energy(&pendulum, theta[i], velocity[i]) - start) < 1e-12);
+  const double start = models_energy(&pendulum, 2.0, 0.3);
+  for (int i = 0; i < ALL; i++) assert_true(fabs(models_energy(&pendulum, theta[i], velocity[i]) - start) < 1e-12);
 }
 
 /* Damping takes the power beta v^2, whatever the potential. */
@@ -51,6 +51,6 @@ TEST(slow_motion_loses_what_damping_takes) {
   for (int i = 0; i + 2 < ALL; i += 2)
     taken += pendulum.beta * h / 3 *
              (velocity[i] * velocity[i] + 4 * velocity[i + 1] * velocity[i + 1] + velocity[i + 2] * velocity[i + 2]);
-  double lost = energy(&pendulum, 2.5, 0) - energy(&pendulum, theta[ALL - 1], velocity[ALL - 1]);
+  double lost = models_energy(&pendulum, 2.5, 0) - models_energy(&pendulum, theta[ALL - 1], velocity[ALL - 1]);
   assert_true(fabs(lost - taken) < 1e-7);
 }

@@ -38,61 +38,62 @@ static const double UNIT = 0x1p-104;
 #define PI_QUAD 3.14159265358979323846264338327950288Q
 
 /* Uniform in [-1, 1], 53 random bits. */
-static double number(void) {
+static double pairs_number(void) {
   static uint64_t state = 20240607;
   state ^= state << 13, state ^= state >> 7, state ^= state << 17;
   return (double)(int64_t)state * 0x1p-63;
 }
 
-static double size(quad x) {
+static double pairs_size(quad x) {
   return fabs((double)x);
 }
 
 /* A random pair in lane 0, of sizes from 2^-8 to 2^8. */
-static pair any(void) {
-  const double high = ldexp(number(), rand() % 17 - 8);
-  return (pair){broadcast(high), broadcast(high * 0x1p-53 * number())};
+static pair pairs_any(void) {
+  const double high = ldexp(pairs_number(), rand() % 17 - 8);
+  return (pair){broadcast_value(high), broadcast_value(high * 0x1p-53 * pairs_number())};
 }
 
-static quad value(pair x) {
+static quad pairs_value(pair x) {
   return (quad)x.high[0] + x.low[0];
 }
 
-static bool normal(pair x) {
+static bool pairs_normal(pair x) {
   return x.high[0] + x.low[0] == x.high[0];
 }
 
 /* Each operation errs by a few units of 2^-104 of its operands at most, and gives pairs that do not overlap. */
 TEST(operations_are_right_to_31_digits) {
   for (int i = 0; i < 200000; i++) {
-    const pair x = any(), y = any(), z = any();
-    const quad a = value(x), b = value(y), c = value(z);
+    const pair x = pairs_any(), y = pairs_any(), z = pairs_any();
+    const quad a = pairs_value(x), b = pairs_value(y), c = pairs_value(z);
     const double coefficients[2] = {z.high[0], z.low[0]};
     const pair exact = two_sum(x.high, y.high), total = add_pairs(x, y), product = multiply_pairs(x, y),
                step = horner_step(x, y, coefficients);
     assert_true((quad)exact.high[0] + exact.low[0] == (quad)x.high[0] + y.high[0]);
-    assert_true(size(value(total) - (a + b)) <= 2 * UNIT * (size(a) + size(b)) && normal(total));
-    assert_true(size(value(subtract_pairs(x, y)) - (a - b)) <= 2 * UNIT * (size(a) + size(b)));
-    assert_true(size(value(product) - a * b) <= 4 * UNIT * size(a * b) && normal(product));
-    assert_true(size(value(step) - (a * b + c)) <= 4 * UNIT * (size(a * b) + size(c)));
+    assert_true(pairs_size(pairs_value(total) - (a + b)) <= 2 * UNIT * (pairs_size(a) + pairs_size(b)) &&
+                pairs_normal(total));
+    assert_true(pairs_size(pairs_value(subtract_pairs(x, y)) - (a - b)) <= 2 * UNIT * (pairs_size(a) + pairs_size(b)));
+    assert_true(pairs_size(pairs_value(product) - a * b) <= 4 * UNIT * pairs_size(a * b) && pairs_normal(product));
+    assert_true(pairs_size(pairs_value(step) - (a * b + c)) <= 4 * UNIT * (pairs_size(a * b) + pairs_size(c)));
     vector even;
     const pair rest = reduce_half_turns(x, &even);
     assert_true(fmod(even[0], 2) == 0 && fabs(rest.high[0]) <= 1);
-    assert_true(size(value(rest) + even[0] - a) <= UNIT * size(a)); /* a quad has 113 binary digits */
+    assert_true(pairs_size(pairs_value(rest) + even[0] - a) <= UNIT * pairs_size(a)); /* a quad has 113 binary digits */
   }
 }
 
 TEST(polynomials_end_in_doubles) {
   for (int i = 0; i < 20000; i++) {
     double c[8][2];
-    for (int j = 0; j < 8; j++) c[j][0] = number(), c[j][1] = c[j][0] * 0x1p-54 * number();
-    const pair x = {broadcast(number()), broadcast(0x1p-56 * number())};
+    for (int j = 0; j < 8; j++) c[j][0] = pairs_number(), c[j][1] = c[j][0] * 0x1p-54 * pairs_number();
+    const pair x = {broadcast_value(pairs_number()), broadcast_value(0x1p-56 * pairs_number())};
     quad all = 0, tail = 0;
-    for (int j = 7; j >= 0; j--) all = all * value(x) + ((quad)c[j][0] + (j < 5 ? c[j][1] : 0));
-    for (int j = 7; j >= 5; j--) tail = tail * value(x) + c[j][0];
-    const quad power = value(x) * value(x) * value(x) * value(x) * value(x);
-    assert_true(size(value(evaluate_pairs(8, 5, c[0], x)) - all) <=
-                64 * UNIT + 4 * DBL_EPSILON * size(power) * (1 + size(tail)));
+    for (int j = 7; j >= 0; j--) all = all * pairs_value(x) + ((quad)c[j][0] + (j < 5 ? c[j][1] : 0));
+    for (int j = 7; j >= 5; j--) tail = tail * pairs_value(x) + c[j][0];
+    const quad power = pairs_value(x) * pairs_value(x) * pairs_value(x) * pairs_value(x) * pairs_value(x);
+    assert_true(pairs_size(pairs_value(evaluate_pairs(8, 5, c[0], x)) - all) <=
+                64 * UNIT + 4 * DBL_EPSILON * pairs_size(power) * (1 + pairs_size(tail)));
   }
 }
 
@@ -103,15 +104,15 @@ typedef struct {
   int64_t turns[N];
 } states;
 
-static void starts(double fastest, states *s) {
+static void pairs_starts(double fastest, states *s) {
   for (int i = 0; i < N; i++) {
-    s->half_turns[i][0] = number(), s->velocity[i][0] = fastest * number();
-    s->half_turns[i][1] = 0x1p-56 * number(), s->velocity[i][1] = 0x1p-56 * number();
+    s->half_turns[i][0] = pairs_number(), s->velocity[i][0] = fastest * pairs_number();
+    s->half_turns[i][1] = 0x1p-56 * pairs_number(), s->velocity[i][1] = 0x1p-56 * pairs_number();
     s->turns[i] = 0;
   }
 }
 
-static void advance(const void *pairs, int64_t n, int64_t periods, states *s) {
+static void pairs_advance(const void *pairs, int64_t n, int64_t periods, states *s) {
   kz_test_pairs_advance(pairs, n, periods, s->half_turns[0], s->velocity[0], s->turns);
 }
 
@@ -122,7 +123,7 @@ static double error_of(const void *pairs, const kz_pendulum *pendulum, double fa
   kz_reference_state reference[N];
   quad state[2];
   double largest = 0;
-  starts(fastest, &s);
+  pairs_starts(fastest, &s);
   kz_reference_start(N, zero, zero, NULL, reference);
   for (int i = 0; i < N; i++) {
     state[0] = PI_QUAD * ((quad)s.half_turns[i][0] + s.half_turns[i][1]),
@@ -130,12 +131,12 @@ static double error_of(const void *pairs, const kz_pendulum *pendulum, double fa
     memcpy(reference[i].quads, state, sizeof state);
   }
   kz_reference_advance(pendulum, KZ_REFERENCE_STEPS, N, 3, reference);
-  advance(pairs, N, 3, &s);
+  pairs_advance(pairs, N, 3, &s);
   for (int i = 0; i < N; i++) {
     memcpy(state, reference[i].quads, sizeof state);
     assert_int_equal(s.turns[i], reference[i].turns);
-    const double d_theta = size(PI_QUAD * ((quad)s.half_turns[i][0] + s.half_turns[i][1]) - state[0]);
-    const double d_velocity = size((quad)s.velocity[i][0] + s.velocity[i][1] - state[1]);
+    const double d_theta = pairs_size(PI_QUAD * ((quad)s.half_turns[i][0] + s.half_turns[i][1]) - state[0]);
+    const double d_velocity = pairs_size((quad)s.velocity[i][0] + s.velocity[i][1] - state[1]);
     largest = fmax(largest, hypot(d_theta, d_velocity));
   }
   return largest;
@@ -171,7 +172,7 @@ TEST(mirror_images_and_lanes) {
   double measured;
   void *pairs = kz_test_pairs_create(&PENDULUM, 1e-20, 3, &measured);
   states s, other, alone;
-  starts(6, &s);
+  pairs_starts(6, &s);
   s.half_turns[0][0] = 1, s.half_turns[0][1] = s.velocity[0][0] = s.velocity[0][1] = 0;
   memset(s.half_turns[1], 0, sizeof s.half_turns[1]), memset(s.velocity[1], 0, sizeof s.velocity[1]);
   other = s, alone = s;
@@ -180,8 +181,8 @@ TEST(mirror_images_and_lanes) {
       other.half_turns[i][part] = -s.half_turns[i][part];
       other.velocity[i][part] = -s.velocity[i][part];
     }
-  advance(pairs, N, 6, &s);
-  advance(pairs, N, 6, &other);
+  pairs_advance(pairs, N, 6, &s);
+  pairs_advance(pairs, N, 6, &other);
   for (int i = 0; i < N; i++) {
     for (int part = 0; part < 2; part++) {
       assert_true(s.half_turns[i][part] == -other.half_turns[i][part]);
@@ -224,9 +225,9 @@ TEST(tables_of_a_square_wave) {
 enum { ROWS = 3, INNER = 60, COLUMNS = 16 };
 
 /* Random pairs [n]: high parts, then low ones. */
-static void fill(int64_t n, double *numbers) {
+static void pairs_fill(int64_t n, double *numbers) {
   for (int64_t i = 0; i < n; i++) {
-    const pair x = any();
+    const pair x = pairs_any();
     numbers[i] = x.high[0], numbers[n + i] = x.low[0];
   }
 }
@@ -235,14 +236,14 @@ static void fill(int64_t n, double *numbers) {
  * the terms cancel. */
 TEST(products_of_matrices_are_right_to_31_digits) {
   static double left[ROWS][2][INNER], right[INNER][2][COLUMNS], product[ROWS][2][COLUMNS];
-  for (int i = 0; i < ROWS; i++) fill(INNER, left[i][0]);
-  for (int k = 0; k < INNER; k++) fill(COLUMNS, right[k][0]);
+  for (int i = 0; i < ROWS; i++) pairs_fill(INNER, left[i][0]);
+  for (int k = 0; k < INNER; k++) pairs_fill(COLUMNS, right[k][0]);
   for (int k = INNER / 2; k < INNER; k++) { /* the first half with the other sign, but for a tiny part */
     for (int i = 0; i < ROWS; i++)
       for (int part = 0; part < 2; part++) left[i][part][k] = -left[i][part][k - INNER / 2];
     for (int j = 0; j < COLUMNS; j++) {
       right[k][0][j] = right[k - INNER / 2][0][j];
-      right[k][1][j] = right[k - INNER / 2][1][j] * (1 + 0x1p-10 * number());
+      right[k][1][j] = right[k - INNER / 2][1][j] * (1 + 0x1p-10 * pairs_number());
     }
   }
   kz_pair_product(ROWS, INNER, COLUMNS, left[0][0], right[0][0], product[0][0]);
@@ -253,9 +254,9 @@ TEST(products_of_matrices_are_right_to_31_digits) {
       for (int k = 0; k < INNER; k++) {
         const quad term = ((quad)left[i][0][k] + left[i][1][k]) * ((quad)right[k][0][j] + right[k][1][j]);
         exact += term;
-        moduli += size(term);
+        moduli += pairs_size(term);
       }
-      assert_true(size((quad)product[i][0][j] + product[i][1][j] - exact) <= 4 * UNIT * moduli);
+      assert_true(pairs_size((quad)product[i][0][j] + product[i][1][j] - exact) <= 4 * UNIT * moduli);
     }
 }
 
@@ -264,8 +265,8 @@ TEST(brackets_are_right_to_31_digits) {
   enum { TOP_F = 2, TOP_G = 4, TOP = TOP_F + TOP_G - 1 };
   static double f[2][TOP_F + 1][2][COLUMNS], g[2][TOP_G + 1][2][COLUMNS], bracket[TOP + 1][2][COLUMNS];
   for (int slope = 0; slope < 2; slope++) {
-    for (int a = 0; a <= TOP_F; a++) fill(COLUMNS, f[slope][a][0]);
-    for (int b = 0; b <= TOP_G; b++) fill(COLUMNS, g[slope][b][0]);
+    for (int a = 0; a <= TOP_F; a++) pairs_fill(COLUMNS, f[slope][a][0]);
+    for (int b = 0; b <= TOP_G; b++) pairs_fill(COLUMNS, g[slope][b][0]);
   }
   kz_pair_bracket(COLUMNS, TOP_F, TOP_G, TOP, f[0][0][0], f[1][0][0], g[0][0][0], g[1][0][0], bracket[0][0]);
   for (int j = 0; j < COLUMNS; j++)
@@ -278,19 +279,19 @@ TEST(brackets_are_right_to_31_digits) {
         const quad x = a * ((quad)f[0][a][0][j] + f[0][a][1][j]) * ((quad)g[1][b][0][j] + g[1][b][1][j]),
                    y = b * ((quad)f[1][a][0][j] + f[1][a][1][j]) * ((quad)g[0][b][0][j] + g[0][b][1][j]);
         exact += x - y;
-        moduli += size(x) + size(y);
+        moduli += pairs_size(x) + pairs_size(y);
       }
-      assert_true(size((quad)bracket[c][0][j] + bracket[c][1][j] - exact) <= 4 * UNIT * moduli);
+      assert_true(pairs_size((quad)bracket[c][0][j] + bracket[c][1][j] - exact) <= 4 * UNIT * moduli);
     }
 }
 
-static void split(quad x, double *high, double *low) {
+static void pairs_split(quad x, double *high, double *low) {
   int64_t bits[2];
   memcpy(bits, &x, sizeof bits);
   kz_pairs_split(1, bits, high, low);
 }
 
-static quad joined(double high, double low) {
+static quad pairs_joined(double high, double low) {
   int64_t bits[2];
   quad x;
   kz_pairs_join(1, &high, &low, bits);
@@ -301,22 +302,22 @@ static quad joined(double high, double low) {
 /* Quads become pairs and pairs quads, of either sign and any size, powers of two and what is just below them too. */
 TEST(quads_are_split_and_joined) {
   for (int i = 0; i < 200000; i++) {
-    const double scale = ldexp(1, rand() % 1600 - 800), first = i % 3 ? number() : ldexp(1, i % 50);
-    const quad x = scale * ((quad)first + first * 0x1p-53 * (quad)number() * (i % 5));
+    const double scale = ldexp(1, rand() % 1600 - 800), first = i % 3 ? pairs_number() : ldexp(1, i % 50);
+    const quad x = scale * ((quad)first + first * 0x1p-53 * (quad)pairs_number() * (i % 5));
     double high, low, again[2];
-    split(x, &high, &low);
+    pairs_split(x, &high, &low);
     assert_true(high + low == high);
-    assert_true(size((quad)high + low - x) <= 0x1p-105 * size(x));
-    const quad back = joined(high, low);
-    assert_true(size(back - ((quad)high + low)) <= 0x1p-111 * size(x));
-    split(back, again, again + 1);
-    assert_true(size(joined(again[0], again[1]) - back) <= 0x1p-105 * size(x));
+    assert_true(pairs_size((quad)high + low - x) <= 0x1p-105 * pairs_size(x));
+    const quad back = pairs_joined(high, low);
+    assert_true(pairs_size(back - ((quad)high + low)) <= 0x1p-111 * pairs_size(x));
+    pairs_split(back, again, again + 1);
+    assert_true(pairs_size(pairs_joined(again[0], again[1]) - back) <= 0x1p-105 * pairs_size(x));
   }
   double high, low;
-  split(0, &high, &low);
-  assert_true(high == 0 && low == 0 && joined(high, low) == 0);
-  split(0x1p-1000Q, &high, &low);
+  pairs_split(0, &high, &low);
+  assert_true(high == 0 && low == 0 && pairs_joined(high, low) == 0);
+  pairs_split(0x1p-1000Q, &high, &low);
   assert_true(high == 0);
-  split(0x1p1100Q, &high, &low);
-  assert_true(isinf(high) && isinf((double)joined(high, low)));
+  pairs_split(0x1p1100Q, &high, &low);
+  assert_true(isinf(high) && isinf((double)pairs_joined(high, low)));
 }

@@ -15,8 +15,8 @@ static kz_hamilton *flow_of(const kz_pendulum *pendulum, int32_t steps) {
 }
 
 /* A blend of two angles about the middle of n periods, relaxed and polished. */
-static bool find(const kz_hamilton *flow, const kz_pendulum *pendulum, const kz_path_end *from, const kz_path_end *to,
-                 int64_t n, int32_t samples, kz_path *path) {
+static bool paths_find(const kz_hamilton *flow, const kz_pendulum *pendulum, const kz_path_end *from,
+                       const kz_path_end *to, int64_t n, int32_t samples, kz_path *path) {
   double *theta = malloc((size_t)(n * samples + 1) * sizeof *theta);
   *path = (kz_path){.n = n, .node = malloc((size_t)(4 * (n + 1)) * sizeof(double))};
   for (int64_t i = 0; i <= n * samples; i++) {
@@ -38,7 +38,7 @@ TEST(the_way_over_the_top_costs_twice_the_gravity) {
     kz_path_end from, to;
     kz_path path;
     assert_true(kz_path_end_find(flow, 1, true, 0, 0, &from) && kz_path_end_find(flow, 1, false, PI, 0, &to));
-    assert_true(find(flow, &pendulum, &from, &to, 120, 24, &path));
+    assert_true(paths_find(flow, &pendulum, &from, &to, 120, 24, &path));
     assert_true(fabs(path.action / (2 * pendulum.k) - 1) < 1e-6 && path.iterations <= 6);
     const int64_t more[2] = {BETA[i] < 0.05 ? 250 : 120, 60};
     kz_path_lengthen(flow, &from, &to, more, &path);
@@ -61,7 +61,7 @@ static double driven_barrier(double k, double beta, double m, int64_t n, int32_t
   assert_true(kz_path_end_find(flow, 1, true, PI, 0, &from));
   assert_true(kz_path_end_find(flow, 1, false, 1.473807, 0.0, &to) ||
               kz_path_end_find(flow, 1, false, -1.473807, 0.0, &to));
-  assert_true(find(flow, &pendulum, &from, &to, n, samples, &path));
+  assert_true(paths_find(flow, &pendulum, &from, &to, n, samples, &path));
   const int64_t more[2] = {250, 5};
   kz_path_lengthen(flow, &from, &to, more, &path);
   assert_true(kz_path_polish(flow, &from, &to, &path));

@@ -32,7 +32,7 @@ static real sum_loss(int level, int n) {
   return level == PAIRS ? n * n + 4 * n + 9 : n;
 }
 
-static real unit(int level) {
+static real rounding_unit(int level) {
   return powl(0x1p-53L, level + 1);
 }
 
@@ -43,11 +43,11 @@ static int level_of(int precision, int n) {
 }
 
 static number of_constant(int level, real x) {
-  return (number){x, constant[level] * unit(level) * x};
+  return (number){x, constant[level] * rounding_unit(level) * x};
 }
 
 static number off_by(number x, real units, int level) {
-  return (number){x.size, x.error + units * unit(level) * (x.size + x.error)};
+  return (number){x.size, x.error + units * rounding_unit(level) * (x.size + x.error)};
 }
 
 static number sum_of(number x, number y, int level) {
@@ -69,7 +69,7 @@ typedef struct {
 } machine;
 
 /* Coefficient i as a sum for coefficient n takes it. */
-static number taken(const machine *x, const number *of, int64_t i, int n) {
+static number rounding_taken(const machine *x, const number *of, int64_t i, int n) {
   const int own = level_of(x->precision, (int)i), level = level_of(x->precision, n);
   return own == level ? of[i] : own == level + 1 ? off_by(of[i], part[own], level) : off_by(of[i], first_part, D);
 }
@@ -80,19 +80,19 @@ static void add_gain(total *of, number a, number b) {
   of->products++;
 }
 
-static number scaled(total of, real by, int level) {
+static number rounding_scaled(total of, real by, int level) {
   return product_of(off_by(of.sum, sum_loss(level, of.products), level), of_constant(level, by), level);
 }
 
 /* The force's size along, across, and of the torque, where there is one. */
-static number force(const machine *x, int64_t i, int n, real share) {
-  return of_constant(level_of(x->precision, n), share * x->b->torque[i]);
+static number rounding_force(const machine *x, int64_t i, int n, real rounding_share) {
+  return of_constant(level_of(x->precision, n), rounding_share * x->b->torque[i]);
 }
 
 #define ACROSS x->b->pendulum->unmirrored
-#define FACTOR_along(i) force(x, i, (int)n + 1, ACROSS ? 0.4L : 1)
-#define FACTOR_across(i) force(x, i, (int)n + 1, 0.4L)
-#define FACTOR_w(i) taken(x, x->w, i, (int)n + 1)
+#define FACTOR_along(i) rounding_force(x, i, (int)n + 1, ACROSS ? 0.4L : 1)
+#define FACTOR_across(i) rounding_force(x, i, (int)n + 1, 0.4L)
+#define FACTOR_w(i) rounding_taken(x, x->w, i, (int)n + 1)
 #define SIZE_w velocity
 #define SIZE_s sine
 #define SIZE_c sine
@@ -103,15 +103,16 @@ static number force(const machine *x, int64_t i, int n, real share) {
 #define KZ_ARGUMENTS machine *x
 #define KZ_SUM(of) total of = {{0, 0}, 0}
 #define KZ_TERMS for (int64_t i = 0; i <= n; i++)
-#define KZ_GAIN(of, f, y) add_gain(&of, FACTOR_##f(i), taken(x, x->y, n - i, (int)n + 1))
-#define KZ_DAMP(of)                            \
-  add_gain(&of, taken(x, x->w, n, (int)n + 1), \
+#define KZ_GAIN(of, f, y) add_gain(&of, FACTOR_##f(i), rounding_taken(x, x->y, n - i, (int)n + 1))
+#define KZ_DAMP(of)                                     \
+  add_gain(&of, rounding_taken(x, x->w, n, (int)n + 1), \
            of_constant(level_of(x->precision, (int)n + 1), x->b->h * x->b->pendulum->beta))
 #define KZ_HAS_ACROSS ACROSS
-#define KZ_PUSH(of) add_gain(&of, (number){1, 0}, force(x, n, (int)n + 1, 0.2L))
-#define KZ_SET(name, sign, of)                                                                                  \
-  x->name[n + 1] = (number) {                                                                                   \
-    x->b->SIZE_##name[n + 1], scaled(of, UNIT_##name / ((real)n + 1), level_of(x->precision, (int)n + 1)).error \
+#define KZ_PUSH(of) add_gain(&of, (number){1, 0}, rounding_force(x, n, (int)n + 1, 0.2L))
+#define KZ_SET(name, sign, of)                                                                     \
+  x->name[n + 1] = (number) {                                                                      \
+    x->b->SIZE_##name[n + 1],                                                                      \
+        rounding_scaled(of, UNIT_##name / ((real)n + 1), level_of(x->precision, (int)n + 1)).error \
   }
 #include "taylor/motion.inc"
 
@@ -132,7 +133,7 @@ static number sum_to(number x, number y, real size, int level) {
 
 /* centre_doubles.c: the low parts of h v and of the angle, and what is left out of them. */
 static void finish_doubles(number d_velocity, number d_theta, real fastest, real drift, real farthest, real missed[2]) {
-  const real u = unit(D);
+  const real u = rounding_unit(D);
   number rest = off_by((number){2 * u * drift, 2 * u * u * drift}, 1, D);
   rest = off_by((number){rest.size + u * drift, rest.error}, 1, D);
   rest = sum_of(rest, (number){u * farthest, 0}, D);
@@ -141,15 +142,15 @@ static void finish_doubles(number d_velocity, number d_theta, real fastest, real
 }
 
 /* Largest miss of angle and velocity on the worst machine. */
-static void worst(const kz_step_bounds *b, double fastest, real missed[2]) {
+static void rounding_worst(const kz_step_bounds *b, double fastest, real missed[2]) {
   machine x = {.precision = b->precision, .b = b};
   const int p = x.precision;
   const real farthest = 4 + 2 * (real)M_PI * fastest, circle = (p == TRIPLES ? 500 + 160 * (farthest + 1)
                                                                 : p == PAIRS ? 48
                                                                              : 8);
   number d_velocity, d_theta;
-  x.w[0] = (number){fastest, p == D ? unit(D) * fastest : 0};
-  x.s[0] = x.c[0] = (number){1, circle * unit(p)};
+  x.w[0] = (number){fastest, p == D ? rounding_unit(D) * fastest : 0};
+  x.s[0] = x.c[0] = (number){1, circle * rounding_unit(p)};
   for (int n = 0; n + 1 < b->order; n++) next_order(&x, n);
   sum_series(&x, 1, &d_velocity, &d_theta);
   if (p == D) {
@@ -178,13 +179,13 @@ static void set_sizes(const sizes *at, kz_pendulum *pendulum, kz_step_bounds *b)
 }
 
 /* The largest share of its bound that the worst machine reaches, in the angle and in the velocity. */
-static double share(kz_step_bounds *b, const kz_rounding_factors *factor, double fastest) {
+static double rounding_share_of(kz_step_bounds *b, const kz_rounding_factors *factor, double fastest) {
   real of_bound[2] = {0}, missed[2];
   b->factor = factor;
   b->fits = true;
   kz_set_errors(b, fastest);
   kz_add_rounding(b, fastest, of_bound);
-  worst(b, fastest, missed);
+  rounding_worst(b, fastest, missed);
   return (double)fmaxl(missed[0] / (of_bound[0] * KZ_MARGIN + KZ_TINY),
                        missed[1] / (of_bound[1] * KZ_MARGIN + KZ_TINY));
 }
@@ -248,7 +249,8 @@ TEST(each_factor_is_needed) {
     kz_rounding_factors cut = needed;
     ((real *)&cut)[cases[i].factor] *= 0.8L;
     set_sizes(&cases[i].at, &pendulum, b);
-    const double full = share(b, &needed, cases[i].at.fastest), less = share(b, &cut, cases[i].at.fastest);
+    const double full = rounding_share_of(b, &needed, cases[i].at.fastest),
+                 less = rounding_share_of(b, &cut, cases[i].at.fastest);
     if (!(full > 0.99 && full < 1 && less > 1))
       fail_msg("%s: %.4f of the bound, %.4f of the one cut", cases[i].name, full, less);
   }
@@ -259,7 +261,7 @@ TEST(the_program_takes_at_least_what_is_needed) {
   for (int i = 0; i < FACTORS; i++) assert_true(((const real *)&kz_rounding)[i] >= ((const real *)&needed)[i]);
 }
 
-static double uniform(double from, double to) {
+static double rounding_uniform(double from, double to) {
   return from + (to - from) * rand() / RAND_MAX;
 }
 
@@ -270,16 +272,16 @@ TEST(any_sizes_are_bounded) {
   double most = 0;
   srand(4);
   for (int draw = 0; draw < 600; draw++) {
-    const sizes at = {.precision = draw % 3, .damping = uniform(0, 2), .force = uniform(0, 2)};
-    const double fastest = draw % 5 ? uniform(0, 20) : 0, ratio = exp(uniform(-3, 0.3));
+    const sizes at = {.precision = draw % 3, .damping = rounding_uniform(0, 2), .force = rounding_uniform(0, 2)};
+    const double fastest = draw % 5 ? rounding_uniform(0, 20) : 0, ratio = exp(rounding_uniform(-3, 0.3));
     set_sizes(&at, &pendulum, b);
     pendulum.unmirrored = draw % 2;
     for (int n = 1; n < b->order; n++) {
-      b->velocity[n] = draw % 7 ? pow(ratio, n) * uniform(0, 5) : 0;
-      b->sine[n] = draw % 11 ? pow(ratio, n) * uniform(0, 5) : 0;
-      b->torque[n] = draw % 13 ? pow(ratio, n) * uniform(0, 1) : 0;
+      b->velocity[n] = draw % 7 ? pow(ratio, n) * rounding_uniform(0, 5) : 0;
+      b->sine[n] = draw % 11 ? pow(ratio, n) * rounding_uniform(0, 5) : 0;
+      b->torque[n] = draw % 13 ? pow(ratio, n) * rounding_uniform(0, 1) : 0;
     }
-    const double of_bound = share(b, &needed, fastest);
+    const double of_bound = rounding_share_of(b, &needed, fastest);
     most = fmax(most, of_bound);
     assert_true(of_bound < 1);
   }

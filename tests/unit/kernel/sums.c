@@ -9,12 +9,12 @@
 #include "digits/number.h"
 #include "enclosure/sines.h"
 
-static double uniform(double low, double high) {
+static double sums_uniform(double low, double high) {
   return low + (high - low) * rand() / RAND_MAX;
 }
 
 /* Adds x to an exact sum of n doubles, which do not overlap (J. R. Shewchuk, Discrete Comput. Geom. 18 (1997) 305). */
-static int grow(int n, double *part, double x) {
+static int sums_grow(int n, double *part, double x) {
   for (int i = 0; i < n; i++) {
     const double s = part[i] + x, z = s - x;
     part[i] = (part[i] - z) + (x - (s - z));
@@ -26,7 +26,7 @@ static int grow(int n, double *part, double x) {
 
 static int grow_product(int n, double *part, double a, double b) {
   const double p = a * b;
-  return grow(grow(n, part, fma(a, b, -p)), part, p);
+  return sums_grow(sums_grow(n, part, fma(a, b, -p)), part, p);
 }
 
 /* How far a sum of n products of pairs is off, over u^2 times the sum of their sizes; `cancel`: big ones that
@@ -34,19 +34,20 @@ static int grow_product(int n, double *part, double a, double b) {
 static double sum_is_off(int n, bool cancel) {
   double part[1000] = {0}, size = 0;
   int parts = 0;
-  pair s = {broadcast(0), broadcast(0)};
+  pair s = {broadcast_value(0), broadcast_value(0)};
   for (int i = 0; i < n; i++) {
     const double scale = cancel ? (i % 2 ? -1 : 1) * ldexp(1, rand() % 30) : ldexp(1, -i);
-    const double a[2] = {scale * uniform(0.5, 1), 0}, b[2] = {uniform(0.5, 1), 0};
-    const double low[2] = {a[0] * uniform(-0x1p-54, 0x1p-54), b[0] * uniform(-0x1p-54, 0x1p-54)};
-    accumulate_pair(&s, (pair){broadcast(a[0]), broadcast(low[0])}, (pair){broadcast(b[0]), broadcast(low[1])});
+    const double a[2] = {scale * sums_uniform(0.5, 1), 0}, b[2] = {sums_uniform(0.5, 1), 0};
+    const double low[2] = {a[0] * sums_uniform(-0x1p-54, 0x1p-54), b[0] * sums_uniform(-0x1p-54, 0x1p-54)};
+    accumulate_pair(&s, (pair){broadcast_value(a[0]), broadcast_value(low[0])},
+                    (pair){broadcast_value(b[0]), broadcast_value(low[1])});
     parts = grow_product(parts, part, a[0], b[0]);
     parts = grow_product(parts, part, low[0], b[0]);
     parts = grow_product(parts, part, a[0], low[1]);
     parts = grow_product(parts, part, low[0], low[1]);
     size += fabs(a[0] * b[0]);
   }
-  parts = grow(grow(parts, part, -s.high[0]), part, -s.low[0]);
+  parts = sums_grow(sums_grow(parts, part, -s.high[0]), part, -s.low[0]);
   double off = 0;
   for (int i = 0; i < parts; i++) off += part[i];
   return fabs(off) / (0x1p-106 * size);
@@ -59,15 +60,15 @@ static double sum_of_triples_is_off(int n, bool cancel) {
   triple s = KZ_CONSTANT_deep(0, 0, 0);
   for (int i = 0; i < n; i++) {
     const double scale = cancel ? (i % 2 ? -1 : 1) * ldexp(1, rand() % 30) : ldexp(1, -i);
-    double a[3] = {scale * uniform(0.5, 1)}, b[3] = {uniform(0.5, 1)};
+    double a[3] = {scale * sums_uniform(0.5, 1)}, b[3] = {sums_uniform(0.5, 1)};
     for (int k = 1; k < 3; k++)
-      a[k] = a[k - 1] * uniform(-0x1p-54, 0x1p-54), b[k] = b[k - 1] * uniform(-0x1p-54, 0x1p-54);
+      a[k] = a[k - 1] * sums_uniform(-0x1p-54, 0x1p-54), b[k] = b[k - 1] * sums_uniform(-0x1p-54, 0x1p-54);
     accumulate_deep(&s, KZ_CONSTANT_deep(a[0], a[1], a[2]), KZ_CONSTANT_deep(b[0], b[1], b[2]));
     for (int k = 0; k < 9; k++) parts = grow_product(parts, part, a[k / 3], b[k % 3]);
     size += fabs(a[0] * b[0]);
   }
-  s = renormalise(s);
-  for (int k = 0; k < 3; k++) parts = grow(parts, part, -s.part[k][0]);
+  s = renormalise_triple(s);
+  for (int k = 0; k < 3; k++) parts = sums_grow(parts, part, -s.part[k][0]);
   for (int i = 0; i < parts; i++) off += part[i];
   return fabs(off) / (0x1p-159 * size);
 }
@@ -90,9 +91,9 @@ TEST(sums_of_products_are_as_good_as_their_bound) {
 /* Angles anywhere, and next to multiples of pi/2, up to a hundred turns away. */
 static void angle_at(int i, double theta[2]) {
   const double turns = i % 3 ? 0 : 100;
-  theta[0] = i % 2 ? uniform(-M_PI - 6 * turns, M_PI + 6 * turns)
-                   : M_PI / 2 * (rand() % 400 - 200) + uniform(-1, 1) * exp(-uniform(0, 40));
-  theta[1] = theta[0] * uniform(-0x1p-54, 0x1p-54);
+  theta[0] = i % 2 ? sums_uniform(-M_PI - 6 * turns, M_PI + 6 * turns)
+                   : M_PI / 2 * (rand() % 400 - 200) + sums_uniform(-1, 1) * exp(-sums_uniform(0, 40));
+  theta[1] = theta[0] * sums_uniform(-0x1p-54, 0x1p-54);
 }
 
 /* sine [n], cosine [n] less those of the sum of theta [n], over 2^-53n. */
@@ -122,10 +123,10 @@ TEST(sines_are_as_good_as_their_bounds) {
   for (int i = 0; i < 100000; i++) {
     double theta[3], sine[3], cosine[3];
     angle_at(i, theta);
-    theta[2] = theta[1] * uniform(-0x1p-54, 0x1p-54);
+    theta[2] = theta[1] * sums_uniform(-0x1p-54, 0x1p-54);
     __float128 exact[2];
     sincosf128((__float128)theta[0] + theta[1], &exact[0], &exact[1]);
-    const pair angle = {broadcast(theta[0]), broadcast(theta[1])};
+    const pair angle = {broadcast_value(theta[0]), broadcast_value(theta[1])};
     vector s, c;
     sine_in_doubles(angle, &s, &c);
     worst = fmax(worst, fmax(fabs((double)(s[0] - exact[0])), fabs((double)(c[0] - exact[1]))));

@@ -8,7 +8,7 @@
 static const double PI = 3.14159265358979323846;
 
 /* Angular acceleration without damping, which keeps every symmetry. */
-static double acceleration(const kz_pendulum *p, double theta, double t) {
+static double symmetries_acceleration(const kz_pendulum *p, double theta, double t) {
   double a = p->k - p->m * cos(t), b = 0;
   for (int j = 1; j <= p->harmonics; j++) {
     a -= p->vertical[j - 1][0] * cos(j * t) + p->vertical[j - 1][1] * sin(j * t);
@@ -21,10 +21,10 @@ static double acceleration(const kz_pendulum *p, double theta, double t) {
 static int32_t symmetries_of_equation(const kz_pendulum *p) {
   int32_t kept = KZ_SYMMETRY_MIRROR | KZ_SYMMETRY_HALF_PERIOD | KZ_SYMMETRY_HALF_TURN;
   for (int i = 0; i < 200; i++) {
-    const double theta = 0.7 * i, t = 1.3 * i * i, here = acceleration(p, theta, t);
-    if (fabs(acceleration(p, -theta, t) + here) > 1e-9) kept &= ~KZ_SYMMETRY_MIRROR;
-    if (fabs(acceleration(p, -theta, t + PI) + here) > 1e-9) kept &= ~KZ_SYMMETRY_HALF_PERIOD;
-    if (fabs(acceleration(p, theta + PI, t + PI) - here) > 1e-9) kept &= ~KZ_SYMMETRY_HALF_TURN;
+    const double theta = 0.7 * i, t = 1.3 * i * i, here = symmetries_acceleration(p, theta, t);
+    if (fabs(symmetries_acceleration(p, -theta, t) + here) > 1e-9) kept &= ~KZ_SYMMETRY_MIRROR;
+    if (fabs(symmetries_acceleration(p, -theta, t + PI) + here) > 1e-9) kept &= ~KZ_SYMMETRY_HALF_PERIOD;
+    if (fabs(symmetries_acceleration(p, theta + PI, t + PI) - here) > 1e-9) kept &= ~KZ_SYMMETRY_HALF_TURN;
   }
   return kept;
 }

@@ -32,14 +32,14 @@ static int remove_folder(void **state) {
   return rmdir(folder); /* fails where a test left a file behind */
 }
 
-static int clear(void **state) {
+static int store_clear(void **state) {
   (void)state;
   kz_message_clear();
   unlink(path);
   return access(part, F_OK) == 0 ? -1 : 0;
 }
 
-static kz_store *begin(void) {
+static kz_store *store_begin(void) {
   kz_store *store = NULL;
   assert_int_equal(kz_store_create(path, groups, &store), KZ_OK);
   return store;
@@ -57,7 +57,7 @@ static void write_basin(kz_store *store, double *theta, double *velocity, int16_
 TEST(a_basin_comes_back) {
   static double theta[N_THETA], velocity[N_VELOCITY], found[N_THETA];
   static int16_t label[N_THETA * N_VELOCITY], read[N_THETA * N_VELOCITY];
-  kz_store *store = begin();
+  kz_store *store = store_begin();
   write_basin(store, theta, velocity, label);
   assert_int_equal(access(path, F_OK), -1);
   assert_int_equal(kz_store_complete(store), KZ_OK);
@@ -88,7 +88,7 @@ TEST(chunks_of_any_shape_come_back) {
     uint32_t *written = malloc((size_t)n * sizeof *written), *found = malloc((size_t)n * sizeof *found);
     double *axis = calloc((size_t)(rows + columns), sizeof *axis);
     for (int64_t i = 0; i < n; ++i) written[i] = (uint32_t)(i / 5 * 2654435761u % 1000);
-    kz_store *store = begin();
+    kz_store *store = store_begin();
     assert_int_equal(kz_store_dimension(store, "basin", "velocity", rows, axis), KZ_OK);
     assert_int_equal(kz_store_dimension(store, "basin", "theta", columns, axis), KZ_OK);
     assert_int_equal(kz_store_variable(store, "basin", "settling_time", written), KZ_OK);
@@ -113,7 +113,7 @@ TEST(long_text_comes_back) {
   memset(scene, 'x', LONG);
   scene[LONG] = '\0';
   memcpy(scene, "\xcf\x80", 2);
-  kz_store *store = begin();
+  kz_store *store = store_begin();
   assert_int_equal(kz_store_text(store, "/", "scene", scene), KZ_OK);
   assert_int_equal(kz_store_text(store, "/", "title", ""), KZ_OK);
   assert_int_equal(kz_store_real(store, "/pendulum", "k", 0.25), KZ_OK);
@@ -141,7 +141,7 @@ TEST(numbers_and_lengths_are_read_before_the_end) {
   const int32_t periods[2] = {3, 7};
   double value;
   int64_t length[2];
-  kz_store *store = begin();
+  kz_store *store = store_begin();
   assert_int_equal(kz_store_dimension(store, "attractors", "attractor", 2, NULL), KZ_OK);
   assert_int_equal(kz_store_dimension(store, "attractors", "phase", 3, NULL), KZ_OK);
   assert_int_equal(kz_store_variable(store, "attractors", "period", periods), KZ_OK);
@@ -164,7 +164,7 @@ static void write_catalogue(int64_t n, int64_t n_phases) {
   const char *name[] = {"down", "rotation +1/1"};
   const int8_t centre[] = {0, 2};
   const double theta[] = {0, NAN, 1, 2};
-  kz_store *store = begin();
+  kz_store *store = store_begin();
   assert_int_equal(kz_store_dimension(store, "attractors", "attractor", n, NULL), KZ_OK);
   assert_int_equal(kz_store_dimension(store, "attractors", "phase", n_phases, NULL), KZ_OK);
   assert_int_equal(kz_store_variable(store, "attractors", "name", name), KZ_OK);
@@ -208,7 +208,7 @@ TEST(a_catalogue_comes_back) {
 TEST(long_descriptions_come_back) {
   static const int8_t kind[2] = {3, 0};
   char text[1000];
-  kz_store *store = begin();
+  kz_store *store = store_begin();
   assert_int_equal(kz_store_dimension(store, "attractors", "attractor", 2, NULL), KZ_OK);
   assert_int_equal(kz_store_variable(store, "attractors", "kind", kind), KZ_OK);
   assert_int_equal(kz_store_complete(store), KZ_OK);
@@ -246,7 +246,7 @@ TEST(the_same_data_give_the_same_bytes) {
   char *bytes[2];
   long n[2];
   for (int i = 0; i < 2; ++i) {
-    kz_store *store = begin();
+    kz_store *store = store_begin();
     write_basin(store, theta, velocity, label);
     assert_int_equal(kz_store_complete(store), KZ_OK);
     n[i] = read_file(&bytes[i]);
@@ -260,7 +260,7 @@ TEST(the_same_data_give_the_same_bytes) {
 
 TEST(completeness_needs_the_fingerprint) {
   assert_null(kz_store_fingerprint(path));
-  kz_store *store = begin();
+  kz_store *store = store_begin();
   assert_int_equal(kz_store_text(store, "/", "fingerprint", "version: 1\nk: 0.25\n"), KZ_OK);
   assert_int_equal(kz_store_complete(store), KZ_OK);
   char *found = kz_store_fingerprint(path);
@@ -271,7 +271,7 @@ TEST(completeness_needs_the_fingerprint) {
 }
 
 TEST(a_discarded_file_leaves_nothing) {
-  kz_store *store = begin();
+  kz_store *store = store_begin();
   assert_int_equal(access(part, F_OK), 0);
   kz_store_discard(store);
   assert_int_equal(access(part, F_OK), -1);
@@ -289,7 +289,7 @@ TEST(a_wrong_path_is_refused) {
 
 TEST(what_the_table_lacks_is_an_error) {
   const double value = 0;
-  kz_store *store = begin();
+  kz_store *store = store_begin();
   assert_int_equal(kz_store_variable(store, "basin", "colour", &value), KZ_FAILED);
   kz_message_clear();
   assert_int_equal(kz_store_dimension(store, "basin", "theta", 1, &value), KZ_OK);
@@ -330,7 +330,7 @@ TEST(a_full_disk_is_one_clear_error) {
   tight = before;
   tight.rlim_cur = 5000;
   signal(SIGXFSZ, SIG_IGN);
-  kz_store *store = begin();
+  kz_store *store = store_begin();
   write_basin(store, theta, velocity, label);
   assert_int_equal(setrlimit(RLIMIT_FSIZE, &tight), 0);
   const kz_status status = kz_store_complete(store);
@@ -342,6 +342,6 @@ TEST(a_full_disk_is_one_clear_error) {
 }
 
 int main(void) {
-  for (size_t i = 0; i < test_count; i++) all_tests[i].teardown_func = clear;
+  for (size_t i = 0; i < test_count; i++) all_tests[i].teardown_func = store_clear;
   return run_all_tests(make_folder, remove_folder);
 }

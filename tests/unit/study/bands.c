@@ -9,7 +9,7 @@
 enum { MOST = 8 };
 
 /* How many attractors of a class there are above all crossings, and below `at`. */
-static void count(const kz_atlas_crossings *crossings, double at, int32_t *above, int32_t *below) {
+static void bands_count(const kz_atlas_crossings *crossings, double at, int32_t *above, int32_t *below) {
   int32_t counts[KZ_ATLAS_MOST_CLASSES] = {0};
   kz_atlas_changes(crossings, -1, at, counts);
   *below = counts[0];
@@ -24,12 +24,12 @@ static kz_atlas_crossings line_of(kz_atlas_crossing *list, int64_t n, const doub
 }
 
 /* Checks that `kept` of n edges are left, with so many attractors below `at` and above all. */
-static void check(int64_t n, const double (*edge)[3], int64_t kept, double at, int32_t below, int32_t above) {
+static void bands_check(int64_t n, const double (*edge)[3], int64_t kept, double at, int32_t below, int32_t above) {
   kz_atlas_crossing list[MOST];
   kz_atlas_crossings line = line_of(list, n, edge);
   int32_t found[2];
   kz_atlas_pair(&line);
-  count(&line, at, found + 1, found);
+  bands_count(&line, at, found + 1, found);
   assert_int_equal(line.count, kept);
   assert_int_equal(found[0], below);
   assert_int_equal(found[1], above);
@@ -37,18 +37,18 @@ static void check(int64_t n, const double (*edge)[3], int64_t kept, double at, i
 
 TEST(test_an_edge_alone_counts_for_nothing) {
   const double edges[][3] = {{0.1, 1e-7, 1}, {0.3, 1e-7, -1}, {0.5, 0.2, 1}};
-  check(3, edges, 1, 0.4, 0, 1);
+  bands_check(3, edges, 1, 0.4, 0, 1);
 }
 
 TEST(test_both_edges_stay) {
   const double edges[][3] = {{0.1, 1e-6, 1}, {0.100001, 1e-6, -1}, {0.2, 3e-6, 1}, {0.200005, 2e-5, -1}};
-  check(4, edges, 4, 0.1000005, 1, 0);
+  bands_check(4, edges, 4, 0.1000005, 1, 0);
 }
 
 /* Interpolation errs by more than the width: the edges change places, and no count is negative. */
 TEST(test_edges_in_the_wrong_order_change_places) {
   const double edges[][3] = {{0.1, 1e-9, -1}, {0.1000002, 1e-9, 1}};
-  check(2, edges, 2, 0.1000001, 1, 0);
+  bands_check(2, edges, 2, 0.1000001, 1, 0);
 }
 
 /* One more edge than the other ones need; those of another class are no partners. */
@@ -60,7 +60,7 @@ TEST(test_every_edge_has_one_partner) {
   list[3].class = 1;
   kz_atlas_pair(&line);
   assert_int_equal(line.count, 2);
-  count(&line, 0.5, &above, &below);
+  bands_count(&line, 0.5, &above, &below);
   assert_int_equal(below, 0);
 }
 

@@ -16,12 +16,12 @@ typedef struct {
 } record;
 
 /* The level that decides an item: 0, 1, 2, or none. */
-static int decides(int64_t item) {
+static int labeller_decides(int64_t item) {
   return (int)(item % 4);
 }
 
 static bool is_left_to_last(int64_t item) {
-  return decides(item) >= 2 && item % 3 == 0;
+  return labeller_decides(item) >= 2 && item % 3 == 0;
 }
 
 static kz_status label_level(void *context, int32_t level, int64_t n, const int64_t *item, kz_decision *decision) {
@@ -29,7 +29,7 @@ static kz_status label_level(void *context, int32_t level, int64_t n, const int6
   for (int64_t i = 0; i < n; i++) {
     r->seen[level][item[i]]++;
     decision[i] =
-        (kz_decision){.end = {.label = (int16_t)(decides(item[i]) == level ? 1 + item[i] % 1000 : KZ_DOUBTFUL),
+        (kz_decision){.end = {.label = (int16_t)(labeller_decides(item[i]) == level ? 1 + item[i] % 1000 : KZ_DOUBTFUL),
                               .next = is_left_to_last(item[i]) ? 2 : (uint8_t)(level + 1)}};
   }
   return KZ_OK;
@@ -49,10 +49,10 @@ TEST(items_climb_until_they_are_decided) {
   for (int64_t i = 0; i < ITEMS; i++) item[i] = (i * 7919) % ITEMS; /* each once */
   assert_int_equal(kz_label_items(&labeller, 1, ITEMS, item, label), KZ_OK);
   for (int64_t i = 0; i < ITEMS; i++) {
-    const int last = decides(item[i]) < LEVELS ? decides(item[i]) : LEVELS - 1;
+    const int last = labeller_decides(item[i]) < LEVELS ? labeller_decides(item[i]) : LEVELS - 1;
     for (int level = 0; level < LEVELS; level++)
       assert_int_equal(r.seen[level][item[i]], level <= last && !(level == 1 && is_left_to_last(item[i])));
-    assert_int_equal(label[i].label, decides(item[i]) < LEVELS ? 1 + item[i] % 1000 : KZ_DOUBTFUL);
+    assert_int_equal(label[i].label, labeller_decides(item[i]) < LEVELS ? 1 + item[i] % 1000 : KZ_DOUBTFUL);
     assert_int_equal(label[i].evidence, 10 + last);
   }
 }

@@ -23,7 +23,7 @@ typedef struct {
 
 typedef int16_t (*label_fn)(double theta, double velocity, int64_t cell);
 
-static scene *make(int n, double half, label_fn label) {
+static scene *measures_make(int n, double half, label_fn label) {
   scene *s = calloc(1, sizeof *s);
   assert_non_null(s);
   s->plan = (kz_measures_plan){.theta = {.min = -half, .max = half},
@@ -43,17 +43,17 @@ static int16_t left_half(double theta, double velocity, int64_t cell) {
   return theta >= 0;
 }
 
-static int16_t disc(double theta, double velocity, int64_t cell) {
+static int16_t measures_disc(double theta, double velocity, int64_t cell) {
   (void)cell;
   return hypot(theta - 0.2, velocity) >= 0.5;
 }
 
-static int16_t middle(double theta, double velocity, int64_t cell) {
+static int16_t measures_middle(double theta, double velocity, int64_t cell) {
   (void)velocity, (void)cell;
   return fabs(theta) < 0.3;
 }
 
-static uint64_t mixed(int64_t cell) {
+static uint64_t measures_mixed(int64_t cell) {
   uint64_t x = (uint64_t)cell * 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   return (x ^ (x >> 27)) >> 33;
@@ -61,18 +61,18 @@ static uint64_t mixed(int64_t cell) {
 
 static int16_t two_at_random(double theta, double velocity, int64_t cell) {
   (void)theta, (void)velocity;
-  return (int16_t)(mixed(cell) % 2);
+  return (int16_t)(measures_mixed(cell) % 2);
 }
 
 static int16_t three_at_random(double theta, double velocity, int64_t cell) {
   (void)theta, (void)velocity;
-  return (int16_t)(mixed(cell) % 3);
+  return (int16_t)(measures_mixed(cell) % 3);
 }
 
 static const double STEP = 2.0 / CELLS;
 
 TEST(test_half_plane) {
-  scene *s = make(2, 1, left_half);
+  scene *s = measures_make(2, 1, left_half);
   double value[3 * MOST];
   s->theta[0] = -0.2;
   s->theta[1] = 0.7;
@@ -99,7 +99,7 @@ TEST(test_half_plane) {
 }
 
 TEST(test_disc_in_another_norm) {
-  scene *s = make(2, 1, disc);
+  scene *s = measures_make(2, 1, measures_disc);
   double value[3 * MOST];
   s->theta[0] = 0.2;
   kz_measure_integrity_local(&s->measured, value);
@@ -119,7 +119,7 @@ TEST(test_disc_in_another_norm) {
 
 /* The basin of 0 goes through the seam of the circle. */
 TEST(test_circles_go_around) {
-  scene *s = make(2, M_PI, middle);
+  scene *s = measures_make(2, M_PI, measures_middle);
   double value[MOST];
   s->plan.velocity = (kz_axis){.min = -10, .max = 10};
   s->theta[0] = M_PI - 0.01;
@@ -131,7 +131,7 @@ TEST(test_circles_go_around) {
 }
 
 /* Newton's method for the roots of z^3 = 1: on which it ends. */
-static int16_t newton(double theta, double velocity, int64_t cell) {
+static int16_t measures_newton(double theta, double velocity, int64_t cell) {
   double complex z = CMPLX(theta, velocity);
   (void)cell;
   for (int i = 0; i < 100; i++) z -= (z * z * z - 1) / (3 * z * z);
@@ -140,7 +140,7 @@ static int16_t newton(double theta, double velocity, int64_t cell) {
 
 /* The map of C. Grebogi, S. W. McDonald, E. Ott, J. A. Yorke (Phys. Lett. A 99 (1983) 415), theta in [0, 2 pi), x in
  * [-0.5, 0.5]: it ends at theta = 0 or pi. */
-static int16_t grebogi(double theta, double velocity, int64_t cell) {
+static int16_t measures_grebogi(double theta, double velocity, int64_t cell) {
   double angle = theta + M_PI, x = velocity / 2;
   (void)cell;
   for (int i = 0; i < 300; i++) {
@@ -154,7 +154,7 @@ static int16_t grebogi(double theta, double velocity, int64_t cell) {
 /* Maps that the tests of Attractors.jl use (test/basins/uncertainty_tests.jl): exponents 0.55 to 0.65 (dimension 1.42)
  * and 0.2 to 0.3 (0.2 in the paper), entropies 0.40 to 0.42 and 0.60 to 0.61 in boxes of 6 x 6 of 300 x 300 cells. */
 TEST(test_published_maps) {
-  scene *roots = make(3, 1, newton), *map = make(2, M_PI, grebogi);
+  scene *roots = measures_make(3, 1, measures_newton), *map = measures_make(2, M_PI, measures_grebogi);
   double value[3 * MOST];
   kz_measure_uncertainty_exponent(&roots->measured, value);
   const double exponent = (value[0] + value[1] + value[2]) / 3;
@@ -170,7 +170,7 @@ TEST(test_published_maps) {
 }
 
 TEST(test_riddled) {
-  scene *two = make(2, 1, two_at_random), *three = make(3, 1, three_at_random);
+  scene *two = measures_make(2, 1, two_at_random), *three = measures_make(3, 1, three_at_random);
   double value[3 * MOST];
   kz_measure_uncertainty_exponent(&two->measured, value);
   assert_true(fabs(value[0]) < 0.01);
@@ -207,7 +207,7 @@ TEST(test_entropies_hold_every_cell) {
 
 /* Three basins meet in the last column and row of a picture that boxes of 16 cells do not fill. */
 TEST(test_boxes_of_shared_boundaries_hold_every_cell) {
-  scene *s = make(3, 1, NULL);
+  scene *s = measures_make(3, 1, NULL);
   double value[MOST];
   for (int i = 1; i < CELLS; i += 2) {
     s->id[i * CELLS + CELLS - 1] = 1;
@@ -224,7 +224,7 @@ TEST(test_distances_are_those_of_brute_force) {
   enum { N = 23 };
   int16_t id[N * N];
   double distance[N * N];
-  for (int i = 0; i < N * N; i++) id[i] = mixed(i) % 7 == 0;
+  for (int i = 0; i < N * N; i++) id[i] = measures_mixed(i) % 7 == 0;
   for (int circle = 0; circle < 2; circle++) {
     const kz_picture picture = {N, N, 0.3, 0.7, circle, id};
     kz_picture_distances(&picture, 0, distance);
@@ -246,7 +246,7 @@ TEST(test_distances_are_those_of_brute_force) {
 TEST(test_shares_and_times) {
   const int16_t id[] = {0, 1, 0, -1, 0, 1, 1, 0};
   const uint32_t time[] = {4, 20, 6, 99, 10, 2, 8, 40};
-  scene *s = make(3, 1, NULL);
+  scene *s = measures_make(3, 1, NULL);
   double value[3 * MOST];
   s->measured.starts = s->measured.weighted = (kz_ended){.n = 8, .id = id, .time = time};
   kz_measure_share(&s->measured, value);
@@ -268,7 +268,7 @@ TEST(test_pace) {
   const int16_t id[] = {0, 0, -1, 0};
   const uint32_t time[] = {6, 20, 9, 0};
   const double start[] = {0, 0.5, M_PI + 0.3, 0, 1, 1, 0.4, 0.2}; /* the last: a strobe point */
-  scene *s = make(2, 1, NULL);
+  scene *s = measures_make(2, 1, NULL);
   double value[MOST];
   s->theta[0] = 0.4;
   s->velocity[0] = 0.2;
@@ -282,7 +282,7 @@ TEST(test_pace) {
 TEST(test_intermingledness) {
   const int16_t id[] = {0, 0, 1, -1};
   const double start[] = {3, 0, 3, 0.2, -3, 0, 1, 1};
-  scene *s = make(2, 1, NULL);
+  scene *s = measures_make(2, 1, NULL);
   double with[MOST], value[MOST];
   s->measured.starts = (kz_ended){.n = 4, .start = start, .id = id};
   kz_measure_intermingled_with(&s->measured, with);
@@ -296,7 +296,7 @@ TEST(test_intermingledness) {
 /* A shear: its powers grow before they fall. And the norm: with scale 20 the shear is weaker. */
 TEST(test_growth_near_a_cycle) {
   kz_tangent tangent[] = {{{0.8, 10, 0, 0.8}}, {{0.5, 0, 0, 0.25}}};
-  scene *s = make(2, 1, NULL);
+  scene *s = measures_make(2, 1, NULL);
   double value[MOST], expected = 1;
   s->measured.tangent = tangent;
   s->entry[0].row.multiplier_re[0] = exp(-0.5);
@@ -324,7 +324,7 @@ TEST(test_smallest_shocks) {
       {.number = 2, .shock = {{.size = NAN}, {.size = 3}, {.size = 2}}, .harmless = {{1, 4, 0}, {2, 4, 0}}},
       {.number = 1, .shock = {{.size = 5}, {.size = 4}, {.size = 1}}, .harmless = {{4, 4, 0}, {0, 4, 0}}},
       {.number = 1, .shock = {{.size = 0.5}, {.size = 9}, {.size = NAN}}, .harmless = {{2, 4, 0}, {2, 4, 0}}}};
-  scene *s = make(2, 1, NULL);
+  scene *s = measures_make(2, 1, NULL);
   double value[MOST];
   s->measured.catalogue.id_of = (int32_t *)id_of;
   s->measured.n_points = 3;

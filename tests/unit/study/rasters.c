@@ -15,7 +15,7 @@ static bool is_shown(int64_t coarseness, int64_t rows, int64_t columns, int64_t 
   return true;
 }
 
-static void check(int64_t rows, int64_t columns, int64_t own) {
+static void rasters_check(int64_t rows, int64_t columns, int64_t own) {
   bool *listed = calloc((size_t)own, sizeof *listed);
   int *times = calloc((size_t)own, sizeof *times);
   int64_t *number = calloc((size_t)(rows * columns), sizeof *number);
@@ -38,7 +38,7 @@ TEST(each_own_cell_is_followed_once) {
   enum { N = sizeof counts / sizeof *counts };
   for (int i = 0; i < N; i++)
     for (int j = 0; j < N; j++) {
-      check(counts[i], counts[j], counts[i] * counts[j]);
-      check(counts[i], counts[j], (counts[i] * counts[j] + 1) / 2);
+      rasters_check(counts[i], counts[j], counts[i] * counts[j]);
+      rasters_check(counts[i], counts[j], (counts[i] * counts[j] + 1) / 2);
     }
 }

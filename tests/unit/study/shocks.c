@@ -17,7 +17,7 @@ static int16_t end_at(double theta, double velocity, bool small) {
   return theta < -2.5 && theta > -2.51 ? 5 : 1;
 }
 
-static void ends(void *context, int64_t n, const double *start, kz_label *end) {
+static void shocks_ends(void *context, int64_t n, const double *start, kz_label *end) {
   const bool *small = context;
   labels += n;
   for (int64_t i = 0; i < n; i++)
@@ -36,7 +36,7 @@ static double ellipse_distance(double scale) {
 
 TEST(test_lines_and_discs) {
   bool small = false;
-  kz_shock_problem problem = {.ends = ends, .context = &small, .own = 1, .scale = 1, .farthest = 3};
+  kz_shock_problem problem = {.ends = shocks_ends, .context = &small, .own = 1, .scale = 1, .farthest = 3};
   kz_shock shock[3];
   kz_shocks_find(&problem, shock);
   assert_true(fabs(shock[0].theta + 2.5) < 1e-11 && shock[0].velocity == 0 && shock[0].end == 5);
@@ -69,7 +69,7 @@ TEST(test_the_other_rest_is_no_basin) {
 /* Smooth boundaries to the tolerance by far fewer labels; a smaller one within the known, none where none is. */
 TEST(test_a_tolerance) {
   bool small = false;
-  kz_shock_problem problem = {.ends = ends, .context = &small, .own = 1, .scale = 1, .farthest = 3};
+  kz_shock_problem problem = {.ends = shocks_ends, .context = &small, .own = 1, .scale = 1, .farthest = 3};
   kz_shock shock[3], known = {1.95, 0, 1.95, 2}, none = {0.5, 0, 0.5, 2};
   const double distance = ellipse_distance(1);
   labels = 0;
@@ -92,7 +92,7 @@ TEST(test_a_tolerance) {
 TEST(test_nothing_to_find) {
   bool small = false;
   const kz_shock_problem problem = {
-      .ends = ends, .context = &small, .from = {0, 40}, .own = 1, .scale = 1, .farthest = 1};
+      .ends = shocks_ends, .context = &small, .from = {0, 40}, .own = 1, .scale = 1, .farthest = 1};
   kz_shock shock[3];
   kz_shocks_find(&problem, shock);
   assert_true(fabs(shock[0].size - 2.5) < 1e-11 && isnan(shock[1].size) && isnan(shock[1].velocity) &&
@@ -104,7 +104,7 @@ TEST(test_nothing_to_find) {
 TEST(test_share_of_harmless_shocks) {
   bool small = false;
   const kz_shock_problem problem = {
-      .ends = ends, .context = &small, .from = {-0.5, -0.5}, .own = 1, .scale = 1, .farthest = 3};
+      .ends = shocks_ends, .context = &small, .from = {-0.5, -0.5}, .own = 1, .scale = 1, .farthest = 3};
   kz_harmless harmless;
   kz_shocks_harmless(&problem, 1.4, &harmless);
   const double half = acos(1.2 / 1.4), segment = (half - sin(half) * cos(half)) / M_PI;

@@ -17,7 +17,7 @@ static kz_scene scene_of(int64_t theta, int64_t velocity, double min, int64_t ma
 }
 
 /* Consecutive cells, each once; the own tiles hold the own cells; mirrored tiles are as long. */
-static void check(int64_t theta, int64_t velocity, double min, int64_t max_periods) {
+static void tiles_check(int64_t theta, int64_t velocity, double min, int64_t max_periods) {
   const kz_scene scene = scene_of(theta, velocity, min, max_periods);
   const kz_tiles t = kz_tiles_of(&scene, 4096);
   int64_t next = 0, own = 0;
@@ -37,10 +37,10 @@ TEST(tiles_cover_the_window) {
   enum { N = sizeof counts / sizeof *counts };
   for (int i = 0; i < N; i++)
     for (int j = 0; j < N; j++) {
-      check(counts[i], counts[j], -2, 2000);
-      check(counts[i], counts[j], -1, 2000);
-      check(counts[i], counts[j], -2, 10000000);
-      check(counts[i], counts[j], -1, 10000000);
+      tiles_check(counts[i], counts[j], -2, 2000);
+      tiles_check(counts[i], counts[j], -1, 2000);
+      tiles_check(counts[i], counts[j], -2, 10000000);
+      tiles_check(counts[i], counts[j], -1, 10000000);
     }
 }
 
@@ -50,7 +50,7 @@ TEST(large_grids_are_addressed) {
   const kz_tiles t = kz_tiles_of(&scene, 4096);
   assert_true(t.whole && t.own == t.n / 2 && kz_tile_capacity(&t) <= 1 << 19);
   assert_true(kz_tile_first(&t, t.n - 1) + kz_tile_count(&t, t.n - 1) == INT64_C(10000000000));
-  check(100000, 100000, -2, 2000);
+  tiles_check(100000, 100000, -2, 2000);
 }
 
 enum { ROWS = 20, COLUMNS = 64 };

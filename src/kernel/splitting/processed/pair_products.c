@@ -71,10 +71,10 @@ void kz_pair_product(int64_t rows, int64_t inner, int64_t columns, const double 
                      double *product) {
   for (int64_t i = 0; i < rows; i++)
     for (int64_t first = 0; first < columns; first += LANES) {
-      pair total = {broadcast(0), broadcast(0)};
+      pair total = {broadcast_value(0), broadcast_value(0)};
       for (int64_t k = 0; k < inner; k++) {
         const double *a = left + 2 * i * inner + k, *b = right + 2 * k * columns + first;
-        accumulate_pair(&total, (pair){broadcast(a[0]), broadcast(a[inner])},
+        accumulate_pair(&total, (pair){broadcast_value(a[0]), broadcast_value(a[inner])},
                         (pair){*(const vector *)b, *(const vector *)(b + columns)});
       }
       total = two_sum(total.high, total.low);
@@ -94,15 +94,15 @@ void kz_pair_bracket(int64_t n, int64_t top_f, int64_t top_g, int64_t top, const
                      const double *g, const double *g_slope, double *bracket) {
   for (int64_t i = 0; i < n; i += LANES)
     for (int64_t c = 0; c <= top; c++) {
-      pair total = {broadcast(0), broadcast(0)};
+      pair total = {broadcast_value(0), broadcast_value(0)};
       for (int64_t b = c + 1 < top_f ? 0 : c + 1 - top_f; b <= c + 1 && b <= top_g; b++) {
         const int64_t a = c + 1 - b;
-        const vector by_v = broadcast((double)a), by_w = broadcast(-(double)b);
+        const vector by_v = broadcast_value((double)a), by_w = broadcast_value(-(double)b);
         const pair x = coefficient_at(f, n, a, i), y = coefficient_at(f_slope, n, a, i);
         const pair p = product_unnormalised(x, coefficient_at(g_slope, n, b, i)),
                    q = product_unnormalised(y, coefficient_at(g, n, b, i));
-        accumulate_pair(&total, p, (pair){by_v, broadcast(0)});
-        accumulate_pair(&total, q, (pair){by_w, broadcast(0)});
+        accumulate_pair(&total, p, (pair){by_v, broadcast_value(0)});
+        accumulate_pair(&total, q, (pair){by_w, broadcast_value(0)});
       }
       total = two_sum(total.high, total.low);
       *(vector *)(bracket + 2 * n * c + i) = total.high;
