@@ -9,6 +9,7 @@ import { numberOf, withUnit } from "./values.js";
 import { Window } from "./window.js";
 
 const GLIDE = 1.5; // seconds in which numbers of the pendulum go to their new values
+const PACE = 10_000; // ms of a step that goes on by itself
 const PRESENTER = { ArrowRight: 1, PageDown: 1, Enter: 1, " ": 1, ArrowLeft: -1, PageUp: -1, Backspace: -1 };
 const KEPT = ["level", "title", "scene", "pendulum", "other", "pane", "pivotFrequency", "start", "window", "home", "whole", "view", "map", "speed", "lit", "pinned", "past", "undone"];
 const texts = (pendulum) => Object.fromEntries(Object.entries(pendulum).map(([name, value]) => [name, typeof value === "number" ? String(value) : value]));
@@ -22,9 +23,9 @@ export class Stories {
     this.story = this.known = null;
     this.step = 0;
     element("tell").onclick = () => (this.story ? this.end() : this.offer());
-    element("show-me").onclick = async () => this.begin((await this.all())[0]);
-    element("story-next").onclick = () => this.go(1);
-    element("story-back").onclick = () => this.go(-1);
+    element("show-me").onclick = async () => this.begin((await this.all())[0], !matchMedia("(prefers-reduced-motion: reduce)").matches);
+    element("story-next").onclick = () => this.take(1);
+    element("story-back").onclick = () => this.take(-1);
     element("story-end").onclick = () => this.end();
     addEventListener("keydown", (event) => this.key(event), true);
   }
@@ -55,7 +56,9 @@ export class Stories {
     this.begin(story);
   }
 
-  begin(story) {
+  /** Tells a story; `alone`: each step goes on by itself, until somebody takes the next or the one before. */
+  begin(story, alone = false) {
+    this.alone = alone;
     this.before ??= Object.fromEntries(KEPT.map((name) => [name, this.state[name]]));
     this.state.show("look");
     this.story = story;
@@ -89,6 +92,7 @@ export class Stories {
     if (!this.story) return;
     this.story = this.known = null;
     this.gliding = null;
+    clearTimeout(this.next);
     delete document.body.dataset.story;
     document.body.dataset.filled = "";
     element("tell").setAttribute("aria-pressed", "false");
@@ -100,16 +104,25 @@ export class Stories {
   key(event) {
     if (!this.story || event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.key === "Escape") this.end();
-    else if (event.key in PRESENTER) this.go(PRESENTER[event.key]);
+    else if (event.key in PRESENTER) this.take(PRESENTER[event.key]);
     else return;
     event.preventDefault();
     event.stopPropagation();
   }
 
+  /** A step that somebody takes: from here on nothing goes on by itself. */
+  take(by) {
+    this.alone = false;
+    this.go(by);
+  }
+
   go(by) {
     const { steps } = this.story;
     this.step = Math.max(0, Math.min(steps.length - 1, this.step + by));
-    element("story-place").textContent = `${this.step + 1} / ${steps.length}`;
+    this.alone &&= this.step < steps.length - 1;
+    clearTimeout(this.next);
+    if (this.alone) this.next = setTimeout(() => this.go(1), PACE);
+    element("story-place").textContent = `${this.step + 1} / ${steps.length}${this.alone ? ", plays on" : ""}`;
     element("story-words").textContent = steps[this.step].say;
     element("story-back").disabled = this.step === 0;
     element("story-next").disabled = this.step === steps.length - 1;

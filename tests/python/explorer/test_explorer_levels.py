@@ -1,11 +1,14 @@
 """The levels of the explorer's page: what a first look shows and says, on a desk and on a phone; what each level adds;
 one key for all."""
 
+import io
 import re
 
+import numpy as np
 import pytest
 from conftest import wait_for
 from explorer_page import Page
+from PIL import Image
 
 pytest_plugins = ("explorer_page",)
 
@@ -93,6 +96,52 @@ def test_a_phone_has_the_pendulum_and_its_amplitude_on_the_first_screen(first):
             assert pendulum[1] - pendulum[0] > 100 and slider[1] <= height and pendulum[0] >= 0
             # Beside each other where there is room
             assert basins[0] < height and (width > height or basins[0] > slider[1])
+
+
+def test_a_phone_presents_the_basins_of_each_step_of_the_story_whole(page, webgl):
+    """Chromium presented no canvas of WebGL that the story's panel covered in part, although it had been drawn."""
+    page.run("document.querySelector('#levels [value=look]').click()")
+    for width, height in ((390, 844), (500, 900)):
+        with page.screen(width, height, mobile=True):
+            page.press("show-me")
+            assert wait_for(lambda: page.run("explorer.stories.story?.steps.map((step) => (step.glide = 0))"))
+            for step in range(page.run("explorer.stories.story.steps.length")):
+                if page.run("$('map').hidden"):
+                    assert wait_for(lambda: page.run("!explorer.stories.busy"))
+                    page.wait()
+                    drawn, presented = shown(page)
+                    assert 0.2 < drawn and 0.8 * drawn < presented, (width, step)
+                assert page.run("$('story').getBoundingClientRect().bottom") <= height
+                page.press("story-next")
+            page.press("story-end")
+
+
+def shown(page):
+    """Shares of coloured pixels in the basins' box: as drawn, and in a screenshot, where black where out of sight."""
+    box = page.run("(({left, top, right, bottom}) => [left, top, right, bottom].map(Math.round))"
+                   "(explorer.basins.panes[0].basins.getBoundingClientRect())")
+    with Image.open(io.BytesIO(page.driver.get_screenshot_as_png())) as shot:
+        seen = np.asarray(shot.convert("RGB").crop(box)).reshape(-1, 3)
+    return [(np.ptp(pixels[:, :3].astype(int), axis=1) > 24).mean() for pixels in (np.array(page.pixels()), seen)]
+
+
+def test_the_story_of_the_first_look_goes_on_by_itself_until_somebody_takes_a_step(first):
+    moving = {"features": [{"name": "prefers-reduced-motion", "value": "no-preference"}]}
+    first.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", moving)
+    first.run("window.setTimeout = ((own) => (then, ms) => "
+              "(ms === 10000 ? ((window.onward = then), 0) : own(then, ms)))(window.setTimeout)")
+    first.press("show-me")
+    place = "$('story-place').textContent"
+    for step in range(1, 7):
+        said = f"{step} / 6" + ", plays on" * (step < 6)
+        assert wait_for(lambda said=said: first.run(place) == said), first.run(place)
+        first.run("((then) => { window.onward = null; then?.(); })(window.onward)")
+    _ = first.press("story-end"), first.press("show-me")
+    assert wait_for(lambda: first.run(place) == "1 / 6, plays on")
+    first.press("story-next")
+    assert first.run(place) == "2 / 6"
+    first.press("story-end")
+    first.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
 
 
 def test_a_key_shows_the_level_that_has_its_control_and_a_visitor_who_returns_finds_it(first, striped):

@@ -237,14 +237,18 @@ def test_a_phone_reaches_every_control(page):
     script = """[...document.querySelectorAll("button, select, input:not([type=file], [type=checkbox]), summary")]
         .filter((part) => part.offsetParent && part.checkVisibility({visibilityProperty: true})
           && !part.closest(".menu > div"))
-        .map((part) => [part.id || part.textContent, part.getBoundingClientRect()])
+        .map((part) => [part.id || part.name || part.textContent,
+          (part.type === "radio" ? part.parentElement : part).getBoundingClientRect()])
         .filter(([, box]) => Math.min(box.width,
           box.height) < 44 || box.left < 0 || box.right > innerWidth).map(([name]) => name)"""
     for width in (390, 360):
         with page.screen(width, 800, mobile=True):
-            if width == 390:
-                _ = page.press("map-shown"), page.press("values-shown")
-            assert wait_for(lambda: page.run(script) == []), (width, page.run(script))
+            for level in ("look", "explore", "measure"):
+                page.run("document.querySelector(`#levels [value=${arguments[0]}]`).click()", level)
+                if width == 390 and level != "look":
+                    page.run("$('map').hidden && $('map-shown').click()")
+                    page.run("document.body.dataset.filled || $('values-shown').click()")
+                assert wait_for(lambda: page.run(script) == []), (width, level, page.run(script))
             page.run("document.body.dataset.story = 'told'")  # its sentence is as wide as the screen, and in sight
             sentence = page.run("(({width, bottom}) => [width, bottom])($('story-words').getBoundingClientRect())")
             page.run("delete document.body.dataset.story")
