@@ -2,9 +2,9 @@
 
 The textbook programs (benchmarks/) label a random subset of the scene's cells and are told the attractors; only their
 labelling is timed. This program labels the whole scene; its time is that of the whole command: start, discovery, table,
-cells, file. The marginal cost of a cell is what a finer grid of the same window (--fine) takes longer than the scene's, per cell that
-it has more: all that a run does once falls out. The programs are run alternately, so changes of the machine's speed affect all;
-ratios are taken within each round."""
+cells, file. The marginal cost of a cell is what a finer grid of the same window (--fine) takes longer than the scene's,
+per cell that it has more: all that a run does once falls out. The programs are run alternately, so changes of the
+machine's speed affect all; ratios are taken within each round."""
 
 import argparse
 import hashlib
@@ -30,7 +30,8 @@ LABEL_CACHE = ROOT / "results" / "benchmark-truth"
 TWIN = "RK4-100, SIMD twin"
 # name | program in build/benchmarks | cells timed
 TEXTBOOK = [("RK4-100, textbook", "textbook", 2000), (TWIN, "twin", 100_000)]
-# name: scene keys. First the defaults, then the cheapest settings that are no worse than the twin, then the ICM of 1992.
+# name: scene keys. First the defaults, then the cheapest settings that are no worse than the twin, then the ICM of
+# 1992.
 OURS = [
     "direct: basin.method=direct",
     "ICM: basin.method=icm",
@@ -45,7 +46,8 @@ UNKNOWN = -2  # an attractor that the reference catalogue lacks
 def pinned(command, core, **options):
     """Runs a command on one core; its output and its processor seconds: other processes do not count."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run(["taskset", "-c", str(core), *map(str, command)], check=False, text=True, capture_output=True, **options)
+    done = subprocess.run(["taskset", "-c", str(core), *map(str, command)], check=False, text=True, capture_output=True,
+                          **options)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     seconds = after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
     if done.returncode:
@@ -95,7 +97,8 @@ class Ours:
 
 
 def translation(catalogue, reference):
-    """Reference ids by a catalogue's own ids; the last entry is for -1. The same attractor = same period, same strobe point."""
+    """Reference ids by a catalogue's own ids; the last entry is for -1. The same attractor = same period, same strobe
+    point."""
     ids = np.full(len(catalogue.period) + 1, UNKNOWN)
     ids[-1] = reference_check.NONE
     for index in catalogue.periodic:
@@ -110,7 +113,8 @@ def translation(catalogue, reference):
 
 def cached_labels(catalogue, theta, velocity):
     """True labels; those of an earlier run where everything is the same."""
-    key = hashlib.sha256((catalogue.text(4000) + reference_check.states_text(theta, velocity)).encode()).hexdigest()[:16]
+    key = hashlib.sha256((catalogue.text(4000) + reference_check.states_text(theta,
+                                                                             velocity)).encode()).hexdigest()[:16]
     path = LABEL_CACHE / f"{key}.npy"
     if not path.exists():
         labels = reference_check.reference_labels(catalogue, theta, velocity, processes=os.cpu_count())
@@ -136,7 +140,8 @@ def rounds_of(arguments, ours, catalogue, states):
 
 
 def marginal_of(arguments, ours, catalogue, states):
-    """Microseconds a further cell of this program, and how often these go into the twin's microseconds, one value a round."""
+    """Microseconds a further cell of this program, and how often these go into the twin's microseconds, one value a
+    round."""
     rows = {setting.name: ([], []) for setting in ours if setting.name in MARGINAL}
     for _ in range(arguments.rounds if arguments.fine else 0):
         twin = textbook_run("twin", catalogue, *states(TEXTBOOK[1][2], 1), arguments.core)[1]
@@ -164,7 +169,8 @@ def measure(arguments, folder):
     seconds = rounds_of(arguments, ours, catalogue, states)
     marginal = marginal_of(arguments, ours, catalogue, states)
     print(f"benchmark: the true_labels of {arguments.cells} cells", file=sys.stderr, flush=True)
-    compared, cells = states(arguments.cells, 0), reference_check.sample_cells(basin["attractor"].shape, arguments.cells, 0)
+    compared, cells = states(arguments.cells, 0), reference_check.sample_cells(basin["attractor"].shape,
+                                                                               arguments.cells, 0)
     true_labels = cached_labels(catalogue, *compared)
     labels = {name: textbook_run(program, catalogue, *compared, arguments.core)[0] for name, program, _ in TEXTBOOK}
     labels |= {setting.name: setting.labels(cells, catalogue) for setting in ours}
@@ -176,7 +182,8 @@ def rows_of(seconds, counts):
     rows = []
     for name, taken in seconds.items():
         ratio = np.array(seconds[TWIN]) / np.array(taken)
-        rows.append({"name": name, "microseconds_per_cell": spread(1e6 * np.array(taken)), "times_faster_than_twin": spread(ratio)}
+        rows.append({"name": name, "microseconds_per_cell": spread(1e6 * np.array(taken)),
+                     "times_faster_than_twin": spread(ratio)}
                     | counts(name))
     return rows
 
@@ -203,7 +210,8 @@ def main():
     parser.add_argument("--scene", type=Path, default=ROOT / "scenes" / "blackburn-fig12.yaml")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--cells", type=int, default=8000, help="cells compared with quad precision")
-    parser.add_argument("--fine", type=int, default=4000, help="cells an axis of the finer grid; 0 = no marginal cost (default: 4000)")
+    parser.add_argument("--fine", type=int, default=4000,
+                        help="cells an axis of the finer grid; 0 = no marginal cost (default: 4000)")
     parser.add_argument("--core", type=int, default=max(os.sched_getaffinity(0)), help="the core that all run on")
     parser.add_argument("--try", dest="try_", action="append", default=[], metavar="'NAME: KEY=VALUE ...'",
                         help="one more setting of this program")

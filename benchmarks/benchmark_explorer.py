@@ -1,6 +1,6 @@
-"""The explorer in headless Chromium: pictures a second, the slowest of them, and frames of basins a second, while the wheel zooms from 1 to
-1e-20, while a slider is dragged, and while the point of the map is. Frames are drawn by software where there is no graphics card, and
-clocks count what else the machine does."""
+"""The explorer in headless Chromium: pictures a second, the slowest of them, and frames of basins a second, while the
+wheel zooms from 1 to 1e-20, while a slider is dragged, and while the point of the map is. Frames are drawn by software
+where there is no graphics card, and clocks count what else the machine does."""
 
 import argparse
 import json
@@ -70,7 +70,8 @@ def main():
     parser.add_argument("--json", action="store_true", help="figures for other programs")
     options = parser.parse_args()
     rows = [{"name": name, "pictures": len(times), "pictures_per_second": 1e3 * len(times) / sum(times),
-             "median_ms": statistics.median(times), "slowest_ms": max(times), "frames_per_second": 1e3 * frames / sum(times)}
+             "median_ms": statistics.median(times), "slowest_ms": max(times),
+             "frames_per_second": 1e3 * frames / sum(times)}
             for name, (times, frames) in measure(options.size).items()]
     if options.json:
         print(json.dumps(rows, indent=1))

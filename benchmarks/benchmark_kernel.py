@@ -1,9 +1,10 @@
-"""Nanoseconds of one drive period of one trajectory, on one core: this program's kernel against other integrators, each at its own
-error, and against the arithmetic that the core can do.
+"""Nanoseconds of one drive period of one trajectory, on one core: this program's kernel against other integrators, each
+at its own error, and against the arithmetic that the core can do.
 
-build/benchmarks/kernel times the kernel (split6 with 24 steps, and the processed splitting at five tolerances) and GSL's rk8pd. heyoka
-and numbalsoda (dop853) are timed where they are installed (pip) and skipped by name where not. Errors are those of one
-period of 64 starts with speeds up to 2, against quad precision; times are processor time, without compiling."""
+build/benchmarks/kernel times the kernel (split6 with 24 steps, and the processed splitting at five tolerances) and
+GSL's rk8pd. heyoka and numbalsoda (dop853) are timed where they are installed (pip) and skipped by name where not.
+Errors are those of one period of 64 starts with speeds up to 2, against quad precision; times are processor time,
+without compiling."""
 
 import argparse
 import importlib
@@ -73,9 +74,11 @@ OTHERS = {"heyoka": heyoka_rows, "numbalsoda": numbalsoda_rows}
 
 
 def harness_rows(pendulum, states, periods, core):
-    """Peak (fused multiply-adds a nanosecond), the starts with their images, and the rows of the compiled integrators."""
+    """Peak (fused multiply-adds a nanosecond), the starts with their images, and the rows of the compiled
+    integrators."""
     command = ["taskset", "-c", str(core), str(HARNESS), *map(repr, pendulum), str(states), str(periods)]
-    lines = [line.split() for line in subprocess.run(command, check=True, text=True, capture_output=True).stdout.splitlines()]
+    lines = [line.split() for line in subprocess.run(command, check=True, text=True,
+                                                     capture_output=True).stdout.splitlines()]
     rows = []
     for words in lines:
         if words[0] != "row":
@@ -95,7 +98,8 @@ def other_row(name, follow, tolerance, probes, periods):
         start = time.process_time()
         follow(probes[:, :2].copy(), periods)
         taken.append(time.process_time() - start)
-    return {"name": name, "tolerance": tolerance, "ns": 1e9 * min(taken) / len(probes) / periods, "error": float(error), "operations": 0}
+    return {"name": name, "tolerance": tolerance, "ns": 1e9 * min(taken) / len(probes) / periods, "error": float(error),
+            "operations": 0}
 
 
 def installed():
@@ -116,20 +120,25 @@ def measure(arguments):
     for title, pendulum in PENDULUMS.items():
         peak, probes, own = harness_rows(pendulum, arguments.states, arguments.periods, arguments.core)
         for name, (make, module) in others.items():
-            own += [other_row(name, make(module, pendulum, tolerance), tolerance, probes, arguments.periods) for tolerance in TOLERANCES]
+            own += [other_row(name, make(module, pendulum, tolerance), tolerance, probes, arguments.periods)
+                    for tolerance in TOLERANCES]
         for row in own:
             share = row["operations"] / row["ns"] / peak if row["operations"] else None
-            rows.append({"pendulum": title, **row, "share_of_peak": share, "times_slower": row["ns"] / rival_ns(row, own)})
+            rows.append({"pendulum": title, **row, "share_of_peak": share,
+                         "times_slower": row["ns"] / rival_ns(row, own)})
     return rows
 
 
 def rival_ns(row, rows):
-    """Nanoseconds of the fastest processed splitting that errs no more than this row does; NaN where none is as exact."""
-    return min((other["ns"] for other in rows if other["name"] == "processed" and other["error"] <= row["error"]), default=np.nan)
+    """Nanoseconds of the fastest processed splitting that errs no more than this row does; NaN where none is as
+    exact."""
+    return min((other["ns"] for other in rows if other["name"] == "processed" and other["error"] <= row["error"]),
+               default=np.nan)
 
 
 def table(rows):
-    yield f"{'pendulum':16} {'integrator':14} {'tolerance':>9} {'ns a period':>12} {'error':>9} {'of peak':>8} {'/ processed':>12}"
+    yield (f"{'pendulum':16} {'integrator':14} {'tolerance':>9} {'ns a period':>12} {'error':>9} {'of peak':>8} "
+           f"{'/ processed':>12}")
     for row in rows:
         share = f"{100 * row['share_of_peak']:6.0f} %" if row["share_of_peak"] else ""
         tolerance = f"{row['tolerance']:.0e}" if row["tolerance"] else ""

@@ -1,7 +1,8 @@
 """Frames of `kapitza serve` on one core: processor time of the program, without that of the reader.
 
-A loop of known arithmetic spins between the frames: on a machine that others load, processor time is longer too, and the
-yardstick tells by how much it varied. Ratios of whole commands against another build are taken in turns (--base)."""
+A loop of known arithmetic spins between the frames: on a machine that others load, processor time is longer too, and
+the yardstick tells by how much it varied. Ratios of whole commands against another build are taken in turns
+(--base)."""
 
 import argparse
 import json
@@ -29,11 +30,12 @@ SLIDERS = {
     "slider-eps046": (BLACKBURN, "drive_amplitude", 0.46, 0.47),
 }
 # The plane of the explorer's map for Fig. 12; its point goes along a line that crosses curves, or around a circle.
-PLANE = {"x": {"parameter": "drive_frequency", "min": 3.1, "max": 30}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.75},
-         "max_period": 4, "checks": 0}
+PLANE = {"x": {"parameter": "drive_frequency", "min": 3.1, "max": 30},
+         "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.75}, "max_period": 4, "checks": 0}
 WAYS = {
     "map-fig12": lambda share: (11 + share, 0.30 + 0.02 * share),
-    "map-fig12-circle": lambda share: (11.5 - 0.5 * math.cos(2 * math.pi * share), 0.31 - 0.01 * math.sin(2 * math.pi * share)),
+    "map-fig12-circle": lambda share: (11.5 - 0.5 * math.cos(2 * math.pi * share),
+                                       0.31 - 0.01 * math.sin(2 * math.pi * share)),
 }
 # Q of weakly damped pendulums, whose first picture is made by a new program
 WEAK = [20, 200]
@@ -118,7 +120,8 @@ def slide(engine, pendulum, key, first, last):
 def map_drags(engine, folder):
     """Means over 50 points of the explorer's map, whose atlas gives the attractors, by the way that its point goes."""
     scene, atlas = (Path(folder) / name for name in ("map.yaml", "map.h5"))
-    scene.write_text(json.dumps({"pendulum": {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}, "atlas": PLANE}))
+    scene.write_text(json.dumps({"pendulum": {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3},
+                                 "atlas": PLANE}))
     subprocess.run([str(PROGRAM), "run", str(scene), "-o", str(atlas)], check=True, stdout=subprocess.DEVNULL)
 
     def go(x, y):
@@ -168,8 +171,8 @@ def run_seconds(program, scene, sets, output):
     words = [word for key in sets for word in ("--set", key)]
     path = ROOT / "scenes" / f"{scene}.yaml"
     command = [str(program), "run", str(path), "-o", str(output), "--force", "--progress", "never", *words]
-    counted = subprocess.run(["perf", "stat", "-x", ",", "-e", "task-clock", *command], check=True, text=True, stdout=subprocess.DEVNULL,
-                             stderr=subprocess.PIPE)
+    counted = subprocess.run(["perf", "stat", "-x", ",", "-e", "task-clock", *command], check=True, text=True,
+                             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     return float(counted.stderr.strip().splitlines()[-1].split(",")[0])
 
 
@@ -180,7 +183,8 @@ def compare(base, rounds, wanted):
         for name, (scene, sets) in RUNS.items():
             if not re.fullmatch(wanted, name):
                 continue
-            times = [[run_seconds(program, scene, sets, Path(folder) / "out.h5") for program in (base, PROGRAM)] for _ in range(rounds)]
+            times = [[run_seconds(program, scene, sets, Path(folder) / "out.h5") for program in (base, PROGRAM)]
+                     for _ in range(rounds)]
             ratios[name] = min(own for _, own in times) / min(other for other, _ in times)
     return ratios
 
@@ -199,7 +203,8 @@ def main():
         "yardstick_ms": {"least": min(yardstick), "median": statistics.median(yardstick), "most": max(yardstick)},
     }
     if options.base:
-        result["runs"] = [{"name": name, "ratio": ratio} for name, ratio in compare(options.base, options.rounds, options.runs).items()]
+        result["runs"] = [{"name": name, "ratio": ratio} for name,
+                          ratio in compare(options.base, options.rounds, options.runs).items()]
     if options.json:
         print(json.dumps(result, indent=1))
         return

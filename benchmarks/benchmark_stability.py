@@ -1,8 +1,8 @@
 """A 2000 x 2000 stability chart by this program on two ranks, against scipy's solve_ivp per point on two cores.
 
 scipy (DOP853) takes a random subset of the chart's points; its time is extrapolated to the chart and halved, as if two
-processes shared the work without loss. This program's time is that of the whole command: start, chart, file. Errors of both
-are those of the largest multiplier against Taylor series in 30 digits, on the same points."""
+processes shared the work without loss. This program's time is that of the whole command: start, chart, file. Errors of
+both are those of the largest multiplier against Taylor series in 30 digits, on the same points."""
 
 import argparse
 import json
@@ -52,7 +52,8 @@ def chart_run(arguments, folder):
     scene.write_text(SCENE.format(count=arguments.count, damping=arguments.damping))
     environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     start = time.perf_counter()
-    done = subprocess.run(["mpirun", "--oversubscribe", "-n", "2", PROGRAM, "run", scene.name, "--force", "--progress", "never"],
+    done = subprocess.run(["mpirun", "--oversubscribe", "-n", "2", PROGRAM, "run", scene.name, "--force", "--progress",
+                           "never"],
                           cwd=folder, env=environment, capture_output=True, text=True)
     seconds = time.perf_counter() - start
     if done.returncode:
@@ -121,7 +122,8 @@ def main():
         print(json.dumps(figures))
         return
     print(f"stability chart of {arguments.count} x {arguments.count} points, beta = {arguments.damping:g}")
-    print(f"  kapitza, two ranks, whole command      {figures['seconds']:10.2f} s   largest error {figures['largest_error']:.1e}")
+    print(f"  kapitza, two ranks, whole command      {figures['seconds']:10.2f} s   largest error "
+          f"{figures['largest_error']:.1e}")
     print(f"  scipy DOP853, two cores, extrapolated  {figures['scipy_seconds_two_cores']:10.0f} s   largest error "
           f"{figures['scipy_largest_error']:.1e}   ({1e3 * figures['scipy_seconds_per_point']:.1f} ms a point)")
     print(f"  ratio {figures['ratio']:.0f}")

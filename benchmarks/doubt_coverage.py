@@ -4,12 +4,13 @@
     scripts/benchmark doubt_coverage                              20 pendulums
     scripts/benchmark doubt_coverage --pendulums 40 --seed 2 --ranks 2
     scripts/benchmark doubt_coverage --first 14 --samples 400     the last six of them, in less time
-    scripts/benchmark doubt_coverage --hard --pendulums 14        strong damping and drive, no gravity, fast starts, boundaries 1e-8 wide
+    scripts/benchmark doubt_coverage --hard --pendulums 14 strong damping and drive, no gravity, fast starts, boundaries
+    1e-8 wide
 
-For each pendulum one run of the program: `basin` with its doubtful share, and `tradeoff`, which compares the same scheme and steps on
-random cells of the same window by quad precision. A share is understated where the wrong share of the cells of the trade-off is above
-the doubtful one's interval. `exact` labels the same cells: none of those that it decides may be wrong. Exit status 1 where a share is
-or a label.
+For each pendulum one run of the program: `basin` with its doubtful share, and `tradeoff`, which compares the same
+scheme and steps on random cells of the same window by quad precision. A share is understated where the wrong share of
+the cells of the trade-off is above the doubtful one's interval. `exact` labels the same cells: none of those that it
+decides may be wrong. Exit status 1 where a share is or a label.
 """
 
 import argparse
@@ -42,11 +43,13 @@ def boundary_window(scene, basin):
     """A window about a point where the basins of two neighbouring cells meet."""
     label = basin["attractor"].values
     row, column = np.argwhere((label[:, 1:] != label[:, :-1]) & (label[:, 1:] >= 0) & (label[:, :-1] >= 0))[0]
-    pair = [str(basin[name].values[i]) for place in (column, column + 1) for name, i in (("theta", place), ("velocity", row))]
-    done = subprocess.run([PROGRAM, "where", "-", *pair, "--boundary", "12", "--json"], input=json.dumps(scene), capture_output=True,
-                          text=True, check=True)
+    pair = [str(basin[name].values[i]) for place in (column, column + 1) for name,
+            i in (("theta", place), ("velocity", row))]
+    done = subprocess.run([PROGRAM, "where", "-", *pair, "--boundary", "12", "--json"], input=json.dumps(scene),
+                          capture_output=True, text=True, check=True)
     centre = json.loads(done.stdout.splitlines()[-1])
-    return {name: {"min": float(centre[name]) - WIDTH / 2, "max": float(centre[name]) + WIDTH / 2} for name in ("theta", "velocity")}
+    return {name: {"min": float(centre[name]) - WIDTH / 2, "max": float(centre[name]) + WIDTH / 2}
+            for name in ("theta", "velocity")}
 
 
 def hard_scene(kapitza, random, number, cells):
@@ -70,7 +73,8 @@ def hard_scene(kapitza, random, number, cells):
 
 def compare(kapitza, scene, samples):
     """(doubtful, low, high) and (wrong, low, high) of a scene, and (wrong, undecided) of `exact`."""
-    scene = scene | {"basin": scene["basin"] | {"method": "direct"}, "tradeoff": {"samples": samples, "settings": [SETTING, "exact"]}}
+    scene = scene | {"basin": scene["basin"] | {"method": "direct"},
+                     "tradeoff": {"samples": samples, "settings": [SETTING, "exact"]}}
     result = kapitza(scene)
     basin, trade = result.group("basin").attrs, result.group("tradeoff")
     stated = tuple(float(basin[f"doubtful_share{end}"]) for end in ("", "_low", "_high"))
@@ -92,7 +96,8 @@ def main():
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--hard", action="store_true", help="pendulums and windows that are hard to label")
     arguments = parser.parse_args()
-    print("pendulum, window; % doubtful, its interval; % wrong, its interval (! = understated); exact: % wrong, % undecided")
+    print("pendulum, window; % doubtful, its interval; % wrong, its interval (! = understated); exact: % wrong, % "
+          "undecided")
     low = mistaken = 0
     with tempfile.TemporaryDirectory() as folder:
         kapitza = Kapitza(folder, arguments.ranks)

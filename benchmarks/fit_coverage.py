@@ -5,7 +5,8 @@
     scripts/benchmark fit_coverage --tracks 400     more tracks, for less noise in the count
     scripts/benchmark fit_coverage --driven 40      driven tracks of random pendulums, from the search for the drive on
 
-A line for each number of the model: its share of intervals that hold, with the 95 % interval (Clopper and Pearson) of this count.
+A line for each number of the model: its share of intervals that hold, with the 95 % interval (Clopper and Pearson) of
+this count.
 """
 
 import argparse
@@ -21,7 +22,8 @@ from kapitza import fitting
 NOISE = 2e-3  # rad
 DECAY = {"omega0": 7.0, "offset": 0.02, "theta": 0.9, "velocity": 0.3, "viscous": 0.15}
 FRICTION = DECAY | {"quadratic": 0.06, "dry": 0.05}
-PENDULUMS = {"viscous": (DECAY, np.linspace(0, 9, 60)), "viscous + quadratic + dry": (FRICTION, np.linspace(0, 20, 250))}
+PENDULUMS = {"viscous": (DECAY, np.linspace(0, 9, 60)),
+             "viscous + quadratic + dry": (FRICTION, np.linspace(0, 20, 250))}
 
 DRIVEN = ("omega0", "offset", "theta", "velocity", "viscous", "drive", "phase")
 
@@ -33,19 +35,22 @@ def track(truth, time, seed=1, omega=None):
 
 
 def driven(seed):
-    """Times, numbers and angular frequency of the drive of a random pendulum: 8 or 15 Hz, 12 to 150 samples a second."""
+    """Times, numbers and angular frequency of the drive of a random pendulum: 8 or 15 Hz, 12 to 150 samples a
+    second."""
     random = np.random.default_rng(1000 + seed)
     omega0, hertz = random.uniform(4, 9), random.choice([8.0, 15.0])
     omega = 2 * np.pi * hertz
     drive = random.uniform(0.15, 1.2) * np.sqrt(2) * omega0 / omega
     samples, seconds = random.choice([12, 25, 60, 150]), random.uniform(6, 10)
-    truth = {"omega0": omega0, "offset": random.uniform(-0.05, 0.05), "theta": random.uniform(0.3, 1.2), "velocity": random.uniform(-1, 1),
+    truth = {"omega0": omega0, "offset": random.uniform(-0.05, 0.05), "theta": random.uniform(0.3, 1.2),
+             "velocity": random.uniform(-1, 1),
              "viscous": random.uniform(0.03, 0.3), "drive": drive, "phase": random.uniform(-3, 3)}
     return np.arange(0, seconds, 1 / samples), truth, omega
 
 
 def driven_holds(seed):
-    """Whether each number lies within its stated error, and omega0 beyond three of them (`wrong`); or why it is refused."""
+    """Whether each number lies within its stated error, and omega0 beyond three of them (`wrong`); or why it is
+    refused."""
     time, truth, omega = driven(seed)
     try:
         model = fitting.fit(time, track(truth, time, seed, omega), frequency=omega / (2 * np.pi)).best
@@ -85,7 +90,8 @@ def main():
         with Pool(chosen.processes) as pool:
             found = pool.map(driven_holds, range(chosen.driven), chunksize=1)
         fits = [one for one in found if isinstance(one, dict)]
-        print(f"driven: {chosen.driven} tracks, {len(found) - len(fits)} refused, {sum(one['wrong'] for one in fits)} in a wrong minimum")
+        print(f"driven: {chosen.driven} tracks, {len(found) - len(fits)} refused, {sum(one['wrong'] for one in fits)} "
+              "in a wrong minimum")
         print("\n".join(f"  refused: {one}" for one in found if isinstance(one, str)))
         for key in DRIVEN:
             print(f"  {key:<10} {sum(one[key] for one in fits)} of {len(fits)}")
@@ -94,7 +100,8 @@ def main():
         print(f"{name}: {chosen.tracks} tracks of {PENDULUMS[name][1].size} samples")
         for key, count in counted(name, chosen.tracks, chosen.processes).items():
             low, high = beta.ppf([0.025, 0.975], [count, count + 1], [chosen.tracks - count + 1, chosen.tracks - count])
-            print(f"  {key:<10} {100 * count / chosen.tracks:5.1f} %   {100 * low:.1f} to {100 * (1 if np.isnan(high) else high):.1f} %")
+            print(f"  {key:<10} {100 * count / chosen.tracks:5.1f} %   {100 * low:.1f} to "
+                  f"{100 * (1 if np.isnan(high) else high):.1f} %")
 
 
 if __name__ == "__main__":

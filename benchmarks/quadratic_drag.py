@@ -1,9 +1,9 @@
-"""Which share of labels changes if friction is partly quadratic:  scripts/benchmark quadratic_drag [SIDE]
+"""Which share of labels changes if friction is partly quadratic: scripts/benchmark quadratic_drag [SIDE]
 
-A rig has viscous and quadratic friction,  theta'' + beta theta' + drag |theta'| theta' + (k - m cos t) sin theta = 0.  A scene has the
-viscous friction that loses as much energy in swings of 10 or 40 degrees (`Fit.scene`). Both are followed from SIDE x SIDE starts by
-Runge-Kutta's method of fourth order, so that the only difference is the friction. Runs with other steps and with 1 % more friction say how
-many labels change anyway.
+A rig has viscous and quadratic friction, theta'' + beta theta' + drag |theta'| theta' + (k - m cos t) sin theta = 0. A
+scene has the viscous friction that loses as much energy in swings of 10 or 40 degrees (`Fit.scene`). Both are followed
+from SIDE x SIDE starts by Runge-Kutta's method of fourth order, so that the only difference is the friction. Runs with
+other steps and with 1 % more friction say how many labels change anyway.
 """
 
 import sys
@@ -53,7 +53,8 @@ def main():
         pendulum = {"k": k, "beta": beta, "m": m}
         floor = np.mean(ends(pendulum, starts, periods) != ends(pendulum, starts, periods, 60))
         more = np.mean(ends(pendulum, starts, periods) != ends(pendulum | {"beta": 1.01 * beta}, starts, periods))
-        print(f"{name}: {side * side} starts; other steps change {100 * floor:.2f} %, 1 % more friction {100 * more:.1f} %", flush=True)
+        print(f"{name}: {side * side} starts; other steps change {100 * floor:.2f} %, 1 % more friction "
+              f"{100 * more:.1f} %", flush=True)
         for drag in DRAGS:
             rig = ends(pendulum | {"drag": drag}, starts, periods)
             for swing in (10, 40):
@@ -62,7 +63,8 @@ def main():
                 shares = ", ".join(f"{word} {100 * np.mean(rig == code):.1f} and {100 * np.mean(scene == code):.1f} %"
                                    for word, code in (("down", 0), ("inverted", 1)))
                 differ = 100 * np.mean(rig != scene)
-                print(f"  drag {drag}, equal at {swing} deg: {differ:.1f} % of the labels differ; rig and scene: {shares}", flush=True)
+                print(f"  drag {drag}, equal at {swing} deg: {differ:.1f} % of the labels differ; rig and scene: "
+                      f"{shares}", flush=True)
 
 
 if __name__ == "__main__":

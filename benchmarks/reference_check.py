@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Compares the labels of a basin file with quad precision: the share of wrong ones among random cells, with its 95 % interval.
+"""Compares the labels of a basin file with quad precision: the share of wrong ones among random cells, with its 95 %
+interval.
 
     benchmarks/reference_check.py blackburn-fig12.h5 --cells 1000 --seed 7
     benchmarks/reference_check.py proof-fig13.h5 --cells 4000 --evidence 10
 
-Every sampled cell is followed by build/benchmarks/reference_label to an attractor of the file's catalogue. Unsettled cells are wrong.
-A cell whose true orbit comes to none of the periodic attractors belongs to the chaotic ones; without any it is wrong.
+Every sampled cell is followed by build/benchmarks/reference_label to an attractor of the file's catalogue. Unsettled
+cells are wrong. A cell whose true orbit comes to none of the periodic attractors belongs to the chaotic ones; without
+any it is wrong.
 """
 
 import argparse
@@ -45,7 +47,8 @@ class Catalogue:
         with h5py.File(result.path) as file:
             drive = file["pendulum"]
             parts = [drive[name][:] for name in ("vertical", "horizontal") if name in drive]
-        self.harmonics = np.hstack([*parts, np.zeros((len(parts[0]), 4 - 2 * len(parts)))]) if parts else np.zeros((0, 4))
+        self.harmonics = np.hstack([*parts,
+                                    np.zeros((len(parts[0]), 4 - 2 * len(parts)))]) if parts else np.zeros((0, 4))
         group = result.group("attractors")
         self.period = group["period"].values
         self.theta, self.velocity = group["strobe_theta"].values, group["strobe_velocity"].values
@@ -72,7 +75,8 @@ def states_text(theta, velocity):
 
 
 def centres(basin, name):
-    """The cell centres of an axis: doubles, or decimal numbers of 60 digits where the window was given by its centre."""
+    """The cell centres of an axis: doubles, or decimal numbers of 60 digits where the window was given by its
+    centre."""
     if f"{name}_offset" not in basin:
         return basin[name].values
     getcontext().prec = 60
@@ -82,10 +86,12 @@ def centres(basin, name):
 
 
 def reference_labels(catalogue, theta, velocity, max_periods=4000, processes=2):
-    """True attractor ids of states (NONE: captured by no periodic attractor), by `processes` copies of reference_label."""
+    """True attractor ids of states (NONE: captured by no periodic attractor), by `processes` copies of
+    reference_label."""
     head = catalogue.text(max_periods)
     parts = np.array_split(np.arange(len(theta)), processes)
-    running = [subprocess.Popen([REFERENCE_LABEL], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) for _ in parts]
+    running = [subprocess.Popen([REFERENCE_LABEL], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+               for _ in parts]
     for process, part in zip(running, parts, strict=True):
         process.stdin.write(head + states_text(theta[part], velocity[part]))
         process.stdin.close()
@@ -125,7 +131,8 @@ def check_file(path, count, seed, processes, max_periods, evidence=None):
     theta, velocity = centres(basin, "theta")[column], centres(basin, "velocity")[row]
     labels = basin["attractor"].values[row, column].astype(np.int64)
     true_labels = reference_labels(catalogue, theta, velocity, max_periods, processes)
-    counts = compare(labels, true_labels, catalogue) | {"file": str(path), "method": basin.attrs.get("method", ""), "seed": seed}
+    counts = compare(labels, true_labels, catalogue) | {"file": str(path), "method": basin.attrs.get("method", ""),
+                                                        "seed": seed}
     return counts, (theta, velocity, labels, true_labels)
 
 
@@ -134,19 +141,22 @@ def main():
     parser.add_argument("file", type=Path)
     parser.add_argument("--cells", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--evidence", type=int, nargs="+", metavar="CODE", help="compare cells of this evidence only (6 10: proved)")
+    parser.add_argument("--evidence", type=int, nargs="+", metavar="CODE",
+                        help="compare cells of this evidence only (6 10: proved)")
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--max-periods", type=int, default=4000, help="how long a true orbit is followed")
     parser.add_argument("--json", action="store_true")
     parser.add_argument("--list", action="store_true", help="also print every wrong cell")
     arguments = parser.parse_args()
-    counts, cells = check_file(arguments.file, arguments.cells, arguments.seed, arguments.processes, arguments.max_periods,
-                               arguments.evidence)
+    counts, cells = check_file(arguments.file, arguments.cells, arguments.seed, arguments.processes,
+                               arguments.max_periods, arguments.evidence)
     if arguments.json:
         print(json.dumps(counts))
     else:
-        print("{file}: {method}: {wrong} of {cells} cells wrong, {0:.3f} % (95 %: {1:.3f} .. {2:.3f} %); {unsettled} unsettled, "
-              "{homeless} come to no attractor of the file".format(*(100 * counts[key] for key in ("share", "low", "high")),
+        print("{file}: {method}: {wrong} of {cells} cells wrong, {0:.3f} % (95 %: {1:.3f} .. {2:.3f} %); {unsettled} "
+              "unsettled, "
+              "{homeless} come to no attractor of the file".format(*(100 * counts[key]
+                                                                     for key in ("share", "low", "high")),
                                                                  **counts))
     if arguments.list:
         for theta, velocity, label, true_labels in zip(*(part.tolist() for part in cells), strict=True):

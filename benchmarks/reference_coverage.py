@@ -4,13 +4,14 @@
     scripts/benchmark reference_coverage                              20 pendulums
     scripts/benchmark reference_coverage --pendulums 40 --seed 2 --ranks 2
 
-For each pendulum the program runs three times: `tradeoff` on a sample; `basin.accuracy` with a random accuracy, on a sample of
-its own; `tradeoff` on a large sample, which stands for the real shares. Each run has its own seed, for its cells and for its
-search for attractors. Counted is how often the stated interval holds the real share, for every setting and for the one that
-`accuracy` chose, and how often the chosen one's real share is within its bound and as small as was asked for. Where no sampled
-setting is as right as was asked for, and `exact` is chosen, twice as many wrong labels are allowed. Pendulums whose cells settle within a
-period have nothing to be wrong about and are drawn again. The large sample errs too: with 20 times the cells a true 95 % is seen as 94.4 %.
-Exit status 1 where a count is below 90 %.
+For each pendulum the program runs three times: `tradeoff` on a sample; `basin.accuracy` with a random accuracy, on a
+sample of its own; `tradeoff` on a large sample, which stands for the real shares. Each run has its own seed, for its
+cells and for its search for attractors. Counted is how often the stated interval holds the real share, for every
+setting and for the one that `accuracy` chose, and how often the chosen one's real share is within its bound and as
+small as was asked for. Where no sampled setting is as right as was asked for, and `exact` is chosen, twice as many
+wrong labels are allowed. Pendulums whose cells settle within a period have nothing to be wrong about and are drawn
+again. The large sample errs too: with 20 times the cells a true 95 % is seen as 94.4 %. Exit status 1 where a count is
+below 90 %.
 """
 
 import argparse
@@ -142,7 +143,8 @@ def row_text(number, row):
     found = " ".join(f"{percent(row['real'][label])}{' ' if holds(stated, row['real'][label]) else '!'}"
                      for label, stated in row["stated"].items())
     mark = " " if holds(chosen["stated"], row["real"][chosen["setting"]]) else "!"
-    return (f"{number:3} {pendulum:42} {found} | {percent(chosen['asked'])} {chosen['setting']:10} {chosen['samples']:5}"
+    return (f"{number:3} {pendulum:42} {found} | {percent(chosen['asked'])} {chosen['setting']:10} "
+            f"{chosen['samples']:5}"
             f" {percent(*chosen['stated'][1:])} {percent(row['real'][chosen['setting']])}{mark}")
 
 
@@ -156,7 +158,8 @@ def main():
     parser.add_argument("--settings", nargs="+", default=SETTINGS)
     parser.add_argument("--ranks", type=int, default=1)
     arguments = parser.parse_args()
-    print(f"pendulum, window; real % wrong of {', '.join(arguments.settings)}; | % asked, chosen, sample, interval, real\n"
+    print(f"pendulum, window; real % wrong of {', '.join(arguments.settings)}; | % asked, chosen, sample, interval, "
+          "real\n"
           "(! = outside its interval)")
     rows = []
     with tempfile.TemporaryDirectory() as folder:

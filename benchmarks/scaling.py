@@ -1,11 +1,13 @@
 """Predicts how long the command for a basin takes on many ranks, from the --log of a run on one rank.
 
-    scaling.py predict [--grid N] [--plot FILE] [--ranks R...] NAME=LOG...    seconds and efficiency; --grid: on N x N cells
-    scaling.py page FILE                                                      the figure of docs/validation/benchmarks.md, from its table
-    scaling.py load [--grid N] LOG                                            seconds of its tiles, for build/benchmarks/uneven
-    scaling.py share [--slower X] [--ranks R...] FILE                         what build/benchmarks/uneven FILE X will measure
+    scaling.py predict [--grid N] [--plot FILE] [--ranks R...] NAME=LOG... seconds and efficiency; --grid: on N x N
+    cells
+    scaling.py page FILE the figure of docs/validation/benchmarks.md, from its table
+    scaling.py load [--grid N] LOG seconds of its tiles, for build/benchmarks/uneven
+    scaling.py share [--slower X] [--ranks R...] FILE what build/benchmarks/uneven FILE X will measure
 
-docs/validation/benchmarks.md says what is assumed, how the costs of messages were measured (messages.c), and how good it is.
+docs/validation/benchmarks.md says what is assumed, how the costs of messages were measured (messages.c), and how good
+it is.
 """
 
 import argparse
@@ -23,7 +25,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
 from kapitza import style  # noqa: E402
 
 COLLECTIVES = 10  # calls of a stage (src/parallel/stage.c)
-TILE_CELLS, BOX = 16384, 5  # of a tile: whole rows, a multiple of five (src/study/basin/tiles.c); the mirrored half costs none
+# Of a tile: whole rows, a multiple of five (src/study/basin/tiles.c); the mirrored half costs none
+TILE_CELLS, BOX = 16384, 5
 GRID = ("cells 1", "file")  # stages whose tiles become more with the grid
 WRITING = "file: writing"
 WRITING_CELL = 2.2e-10  # s of rank 0 for the packed bytes of a cell: messages of 10^6 cells against those of 80,000
@@ -59,7 +62,8 @@ class Run:
         """The same window on grid x grid cells: other tiles, with as many seconds for a cell of the same place."""
         n = math.ceil(grid / max(BOX, TILE_CELLS // grid // BOX * BOX) / 2)
         more = grid * grid / self.cells
-        stages = [(name, [more * s for s in resampled(tiles, n)] if name in GRID else tiles) for name, tiles in self.stages]
+        stages = [(name, [more * s for s in resampled(tiles, n)] if name in GRID else tiles) for name,
+                  tiles in self.stages]
         longer = grid * grid / n - self.cells / len(dict(self.stages)["file"])  # messages, in cells
         return Run(grid * grid, stages, self.between, self.take + WRITING_CELL * longer)
 
@@ -86,7 +90,8 @@ def predictions(run, numbers, costs):
         parts = run.predict(ranks, costs)
         total = sum(parts.values())
         longest = sorted(parts, key=parts.get, reverse=True)[:2]
-        yield ranks, total, run.seconds() / (ranks * total), ", ".join(f"{name} {parts[name]:.2g} s" for name in longest)
+        yield ranks, total, run.seconds() / (ranks * total), ", ".join(f"{name} {parts[name]:.2g} s"
+                                                                       for name in longest)
 
 
 def draw(curves, path):
@@ -109,7 +114,8 @@ def draw(curves, path):
 
 def page(options):
     """Rows "| name | seconds (efficiency) | ..." of the table with the ranks in its head."""
-    lines = [[cell.strip() for cell in line.strip("| \n").split("|")] for line in PAGE.read_text().splitlines() if line.startswith("|")]
+    lines = [[cell.strip() for cell in line.strip("| \n").split("|")] for line in PAGE.read_text().splitlines()
+             if line.startswith("|")]
     head = next(i for i, cells in enumerate(lines) if cells[0] == "seconds (efficiency)")
     ranks = [int(cell.split()[0].replace(",", "")) for cell in lines[head][1:-1]]
     curves = {}

@@ -11,8 +11,8 @@ WAIT = -1
 
 @dataclass(frozen=True)
 class Costs:
-    """Seconds of a message one way, as benchmarks/messages.c measures it over TCP; until rank 0 looks for it, at most; and rank 0's
-    for an answer. All 0: ranks that know of each other without messages."""
+    """Seconds of a message one way, as benchmarks/messages.c measures it over TCP; until rank 0 looks for it, at most;
+    and rank 0's for an answer. All 0: ranks that know of each other without messages."""
     message: float = 6e-4
     look: float = 1e-3
     answer: float = 6e-6
@@ -132,7 +132,8 @@ class Stage:
 
 
 def delivered(workers, make, take):
-    """Seconds of the stage `file`: each rank packs what it labelled, rank 0 writes everybody's messages between its own."""
+    """Seconds of the stage `file`: each rank packs what it labelled, rank 0 writes everybody's messages between its
+    own."""
     packing = [sum(make[tile] for tile in rank.tiles) for rank in workers]
     return max(max(packing), packing[0] + take * len(make))
 

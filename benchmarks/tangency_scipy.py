@@ -1,7 +1,7 @@
 """The drive m at which the manifolds of the inverted state touch, without kapitza.
 
-For a start on the unstable manifold, the drive at which its motion just comes back to the top is found by halving: with more drive it
-goes over, with less it falls back. The lowest of these drives over all starts is the tangency.
+For a start on the unstable manifold, the drive at which its motion just comes back to the top is found by halving: with
+more drive it goes over, with less it falls back. The lowest of these drives over all starts is the tangency.
 
     scripts/benchmark tangency_scipy K BETA LOW HIGH
 """
@@ -24,7 +24,8 @@ def field(t, y, k, beta, m):
 
 def unstable(k, beta, m):
     """Multiplier and unit eigenvector of the top."""
-    columns = [solve_ivp(lambda t, y: [y[1], -beta * y[1] + (k - m * np.cos(t)) * y[0]], (0, TURN), e, **SETTINGS).y[:, -1]
+    columns = [solve_ivp(lambda t, y: [y[1], -beta * y[1] + (k - m * np.cos(t)) * y[0]], (0, TURN), e,
+                         **SETTINGS).y[:, -1]
                for e in np.eye(2)]
     values, vectors = np.linalg.eig(np.transpose(columns))
     i = np.argmax(values.real)
@@ -32,7 +33,8 @@ def unstable(k, beta, m):
 
 
 def goes_over(k, beta, m, share):
-    """Whether the motion from a start on the manifold, a share of a return from NEAR, goes over the top after one turn."""
+    """Whether the motion from a start on the manifold, a share of a return from NEAR, goes over the top after one
+    turn."""
     multiplier, direction = unstable(k, beta, m)
 
     def over(t, y, *_):
@@ -42,7 +44,8 @@ def goes_over(k, beta, m, share):
         return y[1]
 
     over.terminal = back.terminal = True
-    end = solve_ivp(field, (0, 40 * TURN), NEAR * multiplier**share * direction, args=(k, beta, m), events=(over, back), **SETTINGS)
+    end = solve_ivp(field, (0, 40 * TURN), NEAR * multiplier**share * direction, args=(k, beta, m), events=(over, back),
+                    **SETTINGS)
     final = end.y[:, -1]
     return final[0] > TURN + 0.1
 
@@ -61,7 +64,8 @@ def main():
     shares = np.arange(8) / 8
     coarse = [drive_of(k, beta, low, high, share) if goes_over(k, beta, high, share) else np.inf for share in shares]
     start = shares[np.argmin(coarse)]
-    best = minimize_scalar(lambda share: drive_of(k, beta, low, high, share), bracket=(start - 1 / 8, start, start + 1 / 8), tol=1e-6)
+    best = minimize_scalar(lambda share: drive_of(k, beta, low, high, share),
+                           bracket=(start - 1 / 8, start, start + 1 / 8), tol=1e-6)
     print(f"m = {best.fun:.14g} at {best.x:.6f} of a return")
 
 

@@ -1,6 +1,7 @@
-"""The tables of docs/howto/amplitude.md:  .venv/bin/python docs/amplitudes.py
+"""The tables of docs/howto/amplitude.md: .venv/bin/python docs/amplitudes.py
 
-Each cell is an answer of kapitza.needs. The page's text stands in the page; its two tables are written between their marks.
+Each cell is an answer of kapitza.needs. The page's text stands in the page; its two tables are written between their
+marks.
 """
 
 import math
@@ -16,7 +17,8 @@ PAGE = Path(__file__).resolve().parent / "howto" / "amplitude.md"
 LENGTHS = ["5 cm", "10 cm", "15 cm", "20 cm", "30 cm", "50 cm"]
 FREQUENCIES = [10, 20, 30, 40, 50, 60, 80, 100, 120]
 # Name -> amplitude (mm) and frequency (Hz) that it reaches without being built for this.
-SHAKERS = {"loudspeaker, 25 cm wide": (4, 50), "jigsaw, stroke 20 mm": (10, 45), "sewing machine motor, crank 3 mm": (3, 100)}
+SHAKERS = {"loudspeaker, 25 cm wide": (4, 50), "jigsaw, stroke 20 mm": (10, 45),
+           "sewing machine motor, crank 3 mm": (3, 100)}
 
 
 def smallest(length: str, hertz: float) -> float:
@@ -34,13 +36,15 @@ def shaker(name: str) -> str:
     amplitude, hertz = SHAKERS[name]
     stands = [length for length in LENGTHS if smallest(length, hertz) <= amplitude]
     force = amplitude * 1e-3 * (2 * math.pi * hertz) ** 2 / 9.80665
-    return f"| {name} | {amplitude} mm | {hertz} Hz | {force:.0f} g | {'up to ' + stands[-1] if stands else 'none of these'} |"
+    return (f"| {name} | {amplitude} mm | {hertz} Hz | {force:.0f} g | "
+            f"{'up to ' + stands[-1] if stands else 'none of these'} |")
 
 
 def tables() -> dict[str, str]:
     """Mark -> the lines between it and its end."""
     first = ["| frequency | " + " | ".join(LENGTHS) + " |", "| --- |" + " --- |" * len(LENGTHS), *map(row, FREQUENCIES)]
-    second = ["| shaker | amplitude | frequency | acceleration | stands |", "| --- | --- | --- | --- | --- |", *map(shaker, SHAKERS)]
+    second = ["| shaker | amplitude | frequency | acceleration | stands |", "| --- | --- | --- | --- | --- |",
+              *map(shaker, SHAKERS)]
     return {"amplitudes": "\n".join(first), "shakers": "\n".join(second)}
 
 

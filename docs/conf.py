@@ -8,7 +8,8 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))  # for autodoc
 project = "kapitza"
 version = release = re.search(r"project\(kapitza VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_copybutton", "sphinx-mathjax-offline"]  # formulas without a network
+# Formulas without a network
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_copybutton", "sphinx-mathjax-offline"]
 source_suffix = {".md": "markdown"}
 root_doc = "index"
 default_role = "code"  # of docstrings

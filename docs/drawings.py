@@ -1,8 +1,8 @@
-"""The drawings of the explanation pages, computed from the equation of motion:  .venv/bin/python docs/drawings.py
+"""The drawings of the explanation pages, computed from the equation of motion: .venv/bin/python docs/drawings.py
 
-Each function draws one figure into docs/figures/drawing-NAME.svg. The motion is integrated here by a plain Runge-Kutta method of
-fourth order, because a drawing needs three digits. Letters, colours and widths are those of all figures (kapitza.style); letters are
-outlines, so that they look the same everywhere.
+Each function draws one figure into docs/figures/drawing-NAME.svg. The motion is integrated here by a plain Runge-Kutta
+method of fourth order, because a drawing needs three digits. Letters, colours and widths are those of all figures
+(kapitza.style); letters are outlines, so that they look the same everywhere.
 """
 
 import sys
@@ -123,7 +123,8 @@ def splitting():
         middle = (a + step / 2 * v, v + step / 2 * force(a, v, t))
         states.append((a + step * middle[1], v + step * force(*middle, t + step / 2)))
     truth = np.array(states)
-    for axes, values, exact, name in ((above, angles, truth[:, 0], "angle (rad)"), (below, speeds, truth[:, 1], VELOCITY)):
+    for axes, values, exact, name in ((above, angles, truth[:, 0], "angle (rad)"),
+                                      (below, speeds, truth[:, 1], VELOCITY)):
         axes.plot(fine, exact, color=GREY, lw=4, alpha=0.5, label="true motion")
         axes.plot(times, values, color=BLUE, lw=1, label=f"{n} drifts and kicks")
         axes.set_ylabel(name)
@@ -141,7 +142,8 @@ def eigenbasis():
 
 
 def joined(grid, radius, basis):
-    """The round [rows, columns] in which each cell of a grid joins the region that grows from an ellipse; 0 = it does not."""
+    """The round [rows, columns] in which each cell of a grid joins the region that grows from an ellipse; 0 = it does
+    not."""
     theta, velocity = grid
     rounds, corners = np.zeros((len(velocity) - 1, len(theta) - 1), int), np.meshgrid(theta, velocity)
     images = [period(*corners)]
@@ -178,7 +180,8 @@ def trapping():
     for n in range(1, 13):
         theta, velocity = period(theta, velocity)
         if n in (1, 4, 12):
-            left.plot(np.degrees(theta), velocity, color=BLUE, alpha=0.4 + n / 20, label=f"after {n} period{'s' * (n > 1)}")
+            left.plot(np.degrees(theta), velocity, color=BLUE, alpha=0.4 + n / 20,
+                      label=f"after {n} period{'s' * (n > 1)}")
     left.plot([180], [0], "k.", label="inverted state")
     left.set(xlabel=ANGLE, ylabel=VELOCITY)
     grid = np.radians(np.linspace(60, 300, 97)), np.linspace(-0.2, 0.2, 81)
@@ -212,7 +215,8 @@ def ellipse():
 
 
 def handover():
-    """A window of 11 x 11 cells and its image: cells of a tiny window share their first periods, and a cubic polynomial carries them."""
+    """A window of 11 x 11 cells and its image: cells of a tiny window share their first periods, and a cubic polynomial
+    carries them."""
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(PAGE, 0.45 * PAGE), layout="constrained")
     side = np.linspace(-1, 1, 11)
     x, y = np.meshgrid(side, side)
@@ -241,9 +245,12 @@ def proof():
     axes.fill(np.degrees(np.pi + rim[0]), rim[1], color=AMBER, alpha=0.3, label="proved trapping region")
     for n in range(40):
         inside = np.all(np.hypot(*np.linalg.solve(basis, corners - [[np.pi], [0]])) < 1)
-        axes.add_patch(Polygon(np.column_stack([np.degrees(corners[0]), corners[1]]), color=RED if inside else BLUE, alpha=0.6,
-                               label="enclosure that lies inside" if inside else "" if n else "enclosure after so many periods"))
-        axes.annotate(str(n), (np.degrees(corners[0].mean()), corners[1].mean()), textcoords="offset points", xytext=(6, 6))
+        axes.add_patch(Polygon(np.column_stack([np.degrees(corners[0]), corners[1]]), color=RED if inside else BLUE,
+                               alpha=0.6,
+                               label="enclosure that lies inside" if inside else ""
+                               if n else "enclosure after so many periods"))
+        axes.annotate(str(n), (np.degrees(corners[0].mean()), corners[1].mean()), textcoords="offset points",
+                      xytext=(6, 6))
         if inside:
             break
         corners = np.array(period(*corners))
@@ -255,6 +262,7 @@ def proof():
 
 
 if __name__ == "__main__":
-    matplotlib.rcParams.update(style.settings(8) | {"svg.fonttype": "path", "axes.titlesize": "medium", "axes.titleweight": "normal"})
+    matplotlib.rcParams.update(style.settings(8) | {"svg.fonttype": "path", "axes.titlesize": "medium",
+                                                    "axes.titleweight": "normal"})
     for draw in (pendulum, potential, splitting, trapping, ellipse, handover, proof):
         draw()

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Pictures of the explorer for the documentation, in headless Chromium: explorer.png, explorer-phone.png, explorer-story.png and the film
-explorer.gif.
+"""Pictures of the explorer for the documentation, in headless Chromium: explorer.png, explorer-phone.png,
+explorer-story.png and the film explorer.gif.
 
     explorer_pictures.py FOLDER"""
 
@@ -56,9 +56,12 @@ def film(driver, page):
         pictures += [shown(driver)] * 8
     page.press("story-end")
     for amplitude in AMPLITUDES:
-        page.run("(explorer.basins.panes[0].most = 2.5e5, explorer.state.change({pendulum: {...explorer.state.pendulum, "
-                 "drive_amplitude: arguments[0]}, jump: false}))", str(round(amplitude, 4)))  # as fine as on a machine at rest
-        wait_for(lambda: page.run("((pane) => pane.latest?.key === JSON.stringify(pane.pendulum) && pane.latest.level === 1)"
+        page.run("(explorer.basins.panes[0].most = 2.5e5, explorer.state.change({pendulum: "
+                 "{...explorer.state.pendulum, "
+                 # As fine as on a machine at rest
+                 "drive_amplitude: arguments[0]}, jump: false}))", str(round(amplitude, 4)))
+        wait_for(lambda: page.run(
+            "((pane) => pane.latest?.key === JSON.stringify(pane.pendulum) && pane.latest.level === 1)"
                                   f"(explorer.basins.panes[0]) && {KNOWN}"))
         pictures.append(shown(driver))
     return pictures + [pictures[-1]] * math.ceil(1000 / EACH)
@@ -90,7 +93,8 @@ def main():
         first.save(folder / "explorer.gif", save_all=True, append_images=others, duration=EACH, loop=0, optimize=True)
         opened(driver, server, PHONE, "level=look&theme=dark&map=off")
         shown(driver).save(folder / "explorer-phone.png", optimize=True)
-        told(driver, server).resize((1280, 720), Image.Resampling.LANCZOS).save(folder / "explorer-story.png", optimize=True)
+        told(driver, server).resize((1280, 720), Image.Resampling.LANCZOS).save(folder / "explorer-story.png",
+                                                                                optimize=True)
         driver.get("about:blank")
     server.end()
 

@@ -175,7 +175,7 @@ enum {
   KAPITZA_PLANES
 };
 
-/* What a frame shall be. */
+/* A request for a frame. */
 typedef struct {
   const char *change;
   int32_t moving;        /* 1: fast, with errors much smaller than a cell; 0: labels as by basin.method exact */
@@ -228,12 +228,12 @@ typedef struct {
   char precision[16];            /* double, pairs, quad, arbitrary; "": undecided, or not settled */
   int32_t attractor, other;      /* as of kapitza_labels */
   int32_t turns;                 /* KAPITZA_NO_TURNS = not known */
-  int32_t period, winding;       /* of the attractor */
+  int32_t period, winding;       /* drive periods and net turns of the attractor */
   int64_t settling_time;         /* drive periods after which the end is certain */
-  int64_t near_time;      /* and after which the angle stays within 1 degree of the final motion; -1 = not known */
-  double error;           /* rad, when it was trapped; NaN = not known */
-  double mean_velocity;   /* of the attractor */
-  double theta, velocity; /* the start, to the nearest double */
+  int64_t near_time; /* drive periods after which the angle stays within 1 degree of the final motion; -1 = not known */
+  double error;      /* rad, when it was trapped; NaN = not known */
+  double mean_velocity;                         /* mean velocity of the attractor, rad per drive radian */
+  double theta, velocity;                       /* the start, to the nearest double */
   const double *strobe_theta, *strobe_velocity; /* [period] */
 } kapitza_ending;
 

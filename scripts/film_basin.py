@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""A film of basins along one key of a scene, with a legend: a run and a picture for every value, and an MP4; a GIF where the name says
-so, or ffmpeg is not installed.
+"""A film of basins along one key of a scene, with a legend: a run and a picture for every value, and an MP4; a GIF
+where the name says so, or ffmpeg is not installed.
 
     .venv/bin/python scripts/film_basin.py scenes/small.yaml pendulum.drive_amplitude 0.12 0.58 --count 116
     .venv/bin/python scripts/film_basin.py scenes/blackburn-fig12.yaml pendulum.drive_amplitude 0.12 0.58 --ranks 2
 
-A film that was interrupted goes on with the frames that its folder holds; frames of another film are refused. film.txt in the folder
-says which film it is: scene, key, values, resolution and program.
+A film that was interrupted goes on with the frames that its folder holds; frames of another film are refused. film.txt
+in the folder says which film it is: scene, key, values, resolution and program.
 """
 
 import argparse
@@ -36,7 +36,8 @@ def parse_arguments():
     parser.add_argument("--count", type=int, default=100, help="frames, both ends included (default: 100)")
     parser.add_argument("--folder", type=Path, default=Path("film"), help="where the frames go (default: film)")
     parser.add_argument("-o", "--output", type=Path, help="NAME.mp4 or NAME.gif (default: film.mp4 in the folder)")
-    parser.add_argument("--centre", choices=["down", "inverted"], default="inverted", help="state in the middle (default: inverted)")
+    parser.add_argument("--centre", choices=["down", "inverted"], default="inverted",
+                        help="state in the middle (default: inverted)")
     parser.add_argument("--ranks", type=int, default=int(os.environ.get("RANKS", os.cpu_count())))
     parser.add_argument("--rate", type=int, default=12, help="frames per second (default: 12)")
     parser.add_argument("--dpi", type=int, default=150)
@@ -48,7 +49,8 @@ def parse_arguments():
 
 def description(arguments, values):
     """All that the frames depend on, as text."""
-    settings = f"{arguments.key} = {', '.join(map(repr, values))}\n{arguments.dpi} dots per inch, {arguments.centre} in the middle\n"
+    settings = (f"{arguments.key} = {', '.join(map(repr, values))}\n{arguments.dpi} dots per inch, {arguments.centre} "
+                "in the middle\n")
     return f"{settings}\n{ask(['--version'], Scene(arguments.scene))}\n{arguments.scene.read_text()}"
 
 
@@ -79,7 +81,8 @@ def make_frame(arguments, value, picture):
     """Models one value and draws it."""
     result = run(arguments.scene, set={arguments.key: value}, ranks=arguments.ranks, progress=False)
     with whole(picture) as part:
-        film_picture(result, heading(arguments.key, value), centre=arguments.centre, dpi=arguments.dpi).save(part, "PNG")
+        film_picture(result, heading(arguments.key, value), centre=arguments.centre,
+                     dpi=arguments.dpi).save(part, "PNG")
 
 
 def main():

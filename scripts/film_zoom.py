@@ -4,10 +4,10 @@
     build/kapitza where SCENE THETA VELOCITY THETA VELOCITY --boundary 120     # finds a point
     .venv/bin/python scripts/film_zoom.py SCENE THETA VELOCITY --to 1e-100 -o zoom.mp4
 
-One reference orbit serves all frames (docs/validation/accuracy.md). MP4 by ffmpeg where it is there; a name that ends in .gif, or a
-machine without ffmpeg, gives an animated GIF. Cells are labelled as in the explorer's moving frames: the map makes a
-curve of a deep window, and 16 starts a cell along it stand for all cells. Where a boundary is fractal throughout, some cells in a
-hundred have the label of a start beside theirs.
+One reference orbit serves all frames (docs/validation/accuracy.md). MP4 by ffmpeg where it is there; a name that ends
+in .gif, or a machine without ffmpeg, gives an animated GIF. Cells are labelled as in the explorer's moving frames: the
+map makes a curve of a deep window, and 16 starts a cell along it stand for all cells. Where a boundary is fractal
+throughout, some cells in a hundred have the label of a start beside theirs.
 """
 
 import argparse
@@ -51,7 +51,8 @@ def window(arguments, decades):
     mantissa, exponent = 2 * np.pi * 10 ** (-decades % 1), int(np.floor(-decades))
     widths = (mantissa, mantissa * arguments.rows / arguments.columns)
     return {name: {"centre": centre, "width": f"{width:.16g}e{exponent}"}
-            for name, centre, width in zip(("theta", "velocity"), (arguments.theta, arguments.velocity), widths, strict=True)}
+            for name, centre, width in zip(("theta", "velocity"), (arguments.theta, arguments.velocity), widths,
+                                           strict=True)}
 
 
 def picture(engine, labels, decades):
@@ -65,7 +66,8 @@ def picture(engine, labels, decades):
 
 
 def frames(arguments):
-    """All pictures, from the widest on. The widest and the deepest window are asked for first: what they need serves all between."""
+    """All pictures, from the widest on. The widest and the deepest window are asked for first: what they need serves
+    all between."""
     depth = np.log10(2 * np.pi) - np.log10(float(arguments.to))
     with Engine(arguments.scene) as engine:
         for decades in (0, depth):

@@ -1,4 +1,5 @@
-"""Draws the figures of python/kapitza/figures.py, each scene run once, and writes the papers' numbers (see scripts/reproduce)."""
+"""Draws the figures of python/kapitza/figures.py, each scene run once, and writes the papers' numbers (see
+scripts/reproduce)."""
 
 import argparse
 import fnmatch
@@ -26,11 +27,14 @@ figure { margin: 8px; } img { max-width: 100%; max-height: 460px; }</style>"""
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("pattern", nargs="?", help="names of the figures, as a shell pattern (default: all, and the numbers)")
-    parser.add_argument("--numbers", action="store_true", help="no figure: only the numbers of the papers, docs/validation/results.md")
+    parser.add_argument("pattern", nargs="?",
+                        help="names of the figures, as a shell pattern (default: all, and the numbers)")
+    parser.add_argument("--numbers", action="store_true",
+                        help="no figure: only the numbers of the papers, docs/validation/results.md")
     parser.add_argument("--ranks", type=int, default=int(os.environ.get("RANKS", os.cpu_count())))
     parser.add_argument("--list", action="store_true", help="print the table and run nothing")
-    parser.add_argument("--pages", action="store_true", help="the figures that the pages show, into docs/figures, and a sheet of them")
+    parser.add_argument("--pages", action="store_true",
+                        help="the figures that the pages show, into docs/figures, and a sheet of them")
     arguments = parser.parse_args()
     known = shown() if arguments.pages else {name for name, *_ in FIGURES}
     arguments.names = fnmatch.filter(sorted(known), arguments.pattern or "*")
@@ -92,12 +96,14 @@ def draw_pages(arguments):
 
 def draw_tutorial(name, page, result, kind, options):
     """Runs the commands of a tutorial, and draws what they made."""
-    commands = re.findall(r"^```bash\n(.+?)^```", (DOCS / "tutorials" / f"{page}.md").read_text(), re.MULTILINE | re.DOTALL)
+    commands = re.findall(r"^```bash\n(.+?)^```", (DOCS / "tutorials" / f"{page}.md").read_text(),
+                          re.MULTILINE | re.DOTALL)
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "build").symlink_to(ROOT / "build")
         subprocess.run(["bash", "-e", "-c", "".join(commands)], cwd=folder, check=True)
         output = RESULTS / f"{name}.png"
-        subprocess.run([ROOT / "build" / "kapitza", "plot", kind, Path(folder) / result, "-o", output, *options], cwd=ROOT, check=True)
+        subprocess.run([ROOT / "build" / "kapitza", "plot", kind, Path(folder) / result, "-o", output, *options],
+                       cwd=ROOT, check=True)
     shrink(output)
 
 
@@ -116,8 +122,8 @@ def photograph(name, width, height):
         print(f"reproduce: chromium is not installed: no results/{name}.png", file=sys.stderr)
         return
     words = ["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", f"--window-size={width},{height}"]
-    subprocess.run([chromium, *words, f"--screenshot={RESULTS / name}.png", (RESULTS / f"{name}.html").as_uri()], check=True,
-                   capture_output=True, timeout=300)
+    subprocess.run([chromium, *words, f"--screenshot={RESULTS / name}.png", (RESULTS / f"{name}.html").as_uri()],
+                   check=True, capture_output=True, timeout=300)
     print(RESULTS / f"{name}.png")
 
 
@@ -132,9 +138,11 @@ def write_numbers():
     """docs/validation/results.md; status 1 and a line for each number that failed."""
     found = find_numbers(lambda words: print("reproduce:", words, flush=True))
     failed = write_page(found, ROOT / "docs" / "validation" / "results.md")
-    print(f"reproduce: docs/validation/results.md has {sum(len(numbers) for _, numbers in found)} numbers, {len(failed)} failed")
+    print(f"reproduce: docs/validation/results.md has {sum(len(numbers) for _, numbers in found)} numbers, "
+          f"{len(failed)} failed")
     for number in failed:
-        print(f"reproduce: FAILED: {number.place}: {number.quantity}: ours {number.ours:.12g}, paper {number.printed or '-'}, "
+        print(f"reproduce: FAILED: {number.place}: {number.quantity}: ours {number.ours:.12g}, paper "
+              f"{number.printed or '-'}, "
               f"reference {'-' if number.reference is None else format(number.reference, '.12g')}", file=sys.stderr)
     if failed:
         sys.exit(1)

@@ -1,6 +1,7 @@
-"""Makes the paper of docs/paper/paper.md:  python docs/paper/build.py FOLDER
+"""Makes the paper of docs/paper/paper.md: python docs/paper/build.py FOLDER
 
-FOLDER/paper.html is made by markdown-it; FOLDER/paper.pdf by chromium, if it is installed. More than two pages are an error.
+FOLDER/paper.html is made by markdown-it; FOLDER/paper.pdf by chromium, if it is installed. More than two pages are an
+error.
 """
 
 import re
@@ -39,7 +40,8 @@ def main() -> None:
     if not chromium:
         print("paper: chromium is not installed: no PDF", file=sys.stderr)
         return
-    words = [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer", f"--print-to-pdf={pdf}", html.as_uri()]
+    words = [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer", f"--print-to-pdf={pdf}",
+             html.as_uri()]
     subprocess.run(words, check=True, capture_output=True, timeout=300)
     pages = len(re.findall(rb"/Type\s*/Page\b", pdf.read_bytes()))
     print(f"{pdf}: {pages} pages")

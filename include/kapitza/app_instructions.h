@@ -34,10 +34,10 @@ static inline const char *kz_missing_instruction(void) {
 #ifdef __x86_64__
   size_t i = 0;
   __builtin_cpu_init();
-#define CHECK(name, text) \
+#define KZ_CHECK(name, text) \
   if (kz_instructions[i++][0] == '1' && !__builtin_cpu_supports(text)) return text;
-  KZ_INSTRUCTION_LIST(CHECK)
-#undef CHECK
+  KZ_INSTRUCTION_LIST(KZ_CHECK)
+#undef KZ_CHECK
 #endif
   return NULL;
 }

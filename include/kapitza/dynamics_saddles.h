@@ -6,8 +6,8 @@
 /* A search for cycles along a line of starts. */
 typedef struct {
   int64_t max_period;  /* largest period of cycles, drive periods, <= 64 */
-  int64_t most_starts; /* the search ends early with more starts than these, */
-  int64_t most;        /* or with more cycles than these */
+  int64_t most_starts; /* number of starts above which the search ends early */
+  int64_t most;        /* number of cycles above which it ends early */
   double window[4];    /* least and largest angle, least and largest velocity: a cycle counts if it has a point there */
   /* Largest trace of the cycles, of the map that closes them (for symmetric ones half of their period), in that of a
    * multiplier of 1; no piece shorter than 0.1 rad / steepest is halved. INFINITY: cycles of any trace. */

@@ -1,4 +1,5 @@
-"""Recipe of kapitza for Spack 1.0 or newer. Copied as packages/kapitza/package.py into a Spack repository, it builds this folder's sources:
+"""Recipe of kapitza for Spack 1.0 or newer. Copied as packages/kapitza/package.py into a Spack repository, it builds
+this folder's sources:
 
 spack dev-build --source-path FOLDER kapitza@0.5.0
 """
@@ -35,4 +36,5 @@ class Kapitza(CMakePackage):
     def cmake_args(self):
         # The target's generic instruction set, by gcc's name: x86_64_v3 is x86-64-v3.
         target = self.spec.target.generic.name.replace("_", "-")
-        return [self.define("BUILD_TESTING", False), self.define("KAPITZA_ARCH", target if target.startswith("x86-64") else "armv8-a")]
+        return [self.define("BUILD_TESTING", False),
+                self.define("KAPITZA_ARCH", target if target.startswith("x86-64") else "armv8-a")]

@@ -1,5 +1,5 @@
-"""Makes the binary wheel: the Python package's own wheel, the launcher as bin/kapitza, one build of the program for each instruction set
-in libexec, and the licences of the libraries inside.
+"""Makes the binary wheel: the Python package's own wheel, the launcher as bin/kapitza, one build of the program for
+each instruction set in libexec, and the licences of the libraries inside.
 
     assemble.py PURE.whl LAUNCHER SHARE LICENCES OUT ARCH=PROGRAM...
 """
@@ -24,21 +24,25 @@ packages whose static libraries were taken (lines `static`).
 
 
 # Licences of what stands in sources.txt, by the beginning of its name.
-LICENCES = {"libgsl": "GPL-3.0-or-later", "libfftw3": "GPL-2.0-or-later", "libgmp": "LGPL-3.0-or-later OR GPL-2.0-or-later",
-            "libmpfr": "LGPL-3.0-or-later", "libjson-c": "MIT", "libyaml": "MIT", "zlib1g": "Zlib", "flint": "LGPL-3.0-or-later",
-            "hdf5": "BSD-3-Clause", "libc6": "LGPL-2.1-or-later", "libgfortran": "GPL-3.0-or-later WITH GCC-exception-3.1",
+LICENCES = {"libgsl": "GPL-3.0-or-later", "libfftw3": "GPL-2.0-or-later",
+            "libgmp": "LGPL-3.0-or-later OR GPL-2.0-or-later",
+            "libmpfr": "LGPL-3.0-or-later", "libjson-c": "MIT", "libyaml": "MIT", "zlib1g": "Zlib",
+            "flint": "LGPL-3.0-or-later",
+            "hdf5": "BSD-3-Clause", "libc6": "LGPL-2.1-or-later",
+            "libgfortran": "GPL-3.0-or-later WITH GCC-exception-3.1",
             "libgcc-s1": "GPL-3.0-or-later WITH GCC-exception-3.1",
             "libgcc-12-dev": "GPL-3.0-or-later WITH GCC-exception-3.1 AND LGPL-2.1-or-later",  # with libquadmath
             "libcrypt": "LGPL-2.1-or-later", "linux-libc": "GPL-2.0-only WITH Linux-syscall-note"}
 
 
 def component(kind, package, digest):
-    """A row of sources.txt as a component of CycloneDX; what is only linked against (kind `binary`) is excluded from the wheel."""
+    """A row of sources.txt as a component of CycloneDX; what is only linked against (kind `binary`) is excluded from
+    the wheel."""
     name, version = package.split("=", 1)
     address = f"pkg:deb/debian/{name}@{version.replace(':', '%3A').replace('+', '%2B')}"
     licence = next(words for start, words in LICENCES.items() if name.startswith(start))
-    return {"type": "library", "name": name, "version": version, "scope": "excluded" if kind == "binary" else "required",
-            "purl": f"{address}?arch={'source' if kind == 'source' else 'amd64'}",
+    return {"type": "library", "name": name, "version": version, "scope": "excluded" if kind == "binary"
+            else "required", "purl": f"{address}?arch={'source' if kind == 'source' else 'amd64'}",
             "hashes": [{"alg": "SHA-256", "content": digest}], "licenses": [{"expression": licence}]}
 
 
@@ -94,7 +98,8 @@ def main():
         (info / "sboms" / "kapitza.cdx.json").write_text(bill_of_materials(sources, version))
         metadata = info / "METADATA"
         metadata.write_text(rewrite_metadata(metadata.read_text(), names))
-        (info / "WHEEL").write_text(f"Wheel-Version: 1.0\nGenerator: scripts/wheel\nRoot-Is-Purelib: false\nTag: {TAG}\n")
+        (info / "WHEEL").write_text(
+            f"Wheel-Version: 1.0\nGenerator: scripts/wheel\nRoot-Is-Purelib: false\nTag: {TAG}\n")
         subprocess.run([sys.executable, "-m", "wheel", "pack", folder, "-d", out], check=True)
 
 

@@ -1,4 +1,5 @@
-"""Makes a library to link with that has only the symbols of a glibc of some age: exp, log and pow then bind to their older versions.
+"""Makes a library to link with that has only the symbols of a glibc of some age: exp, log and pow then bind to their
+older versions.
 
     old_symbols.py LIBRARY OUT.so 2.28
 """
@@ -17,7 +18,8 @@ def number(version):
 
 
 def symbols(library, newest):
-    """The symbols of a library no newer than that version: name -> {version: bytes of a variable, or None of a function}."""
+    """The symbols of a library no newer than that version: name -> {version: bytes of a variable, or None of a
+    function}."""
     listing = subprocess.run(["objdump", "-T", library], capture_output=True, text=True, check=True).stdout
     found = {}
     for flags, _, size, version, name in (match.groups() for match in map(SYMBOL.match, listing.splitlines()) if match):
@@ -35,7 +37,8 @@ def source_of(found):
             own = f"old_{len(lines)}"
             versions.add(version)
             definition = f"void {own}(void) {{}}" if size is None else f"char {own}[{size}] = {{0}};"
-            lines.append(f'{definition} __asm__(".symver {own},{name}@{"@" if version == default else ""}GLIBC_{version}");')
+            lines.append(
+                f'{definition} __asm__(".symver {own},{name}@{"@" if version == default else ""}GLIBC_{version}");')
     script, before = "", ""
     for version in sorted(versions, key=number):
         script += f"GLIBC_{version} {{ {'' if before else 'local: old_*;'} }} {before};\n"

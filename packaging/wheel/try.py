@@ -64,7 +64,8 @@ def check_notebook():
     import nbclient
     import nbformat
 
-    cells = ["import kapitza", f"result = kapitza.run({SCENE!r}, output='notebook.h5', force=True, progress=False)", "result"]
+    cells = ["import kapitza", f"result = kapitza.run({SCENE!r}, output='notebook.h5', force=True, progress=False)",
+             "result"]
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
     nbclient.NotebookClient(notebook, timeout=120).execute()
     assert "text/html" in notebook.cells[-1].outputs[0].data

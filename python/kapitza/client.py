@@ -15,7 +15,7 @@ from kapitza.program import ERROR, SceneError, environment
 
 START = 60.0       # seconds until the process must be ready
 CLOSE = 1.0        # seconds in which it ends by itself
-MOST_BYTES = 65_536  # of a request
+MOST_BYTES = 65_536  # longest request
 CATALOGUES = 8     # versions that are remembered
 Answer = tuple[dict[str, Any], bytes]  # header, payload
 

@@ -13,11 +13,11 @@ from kapitza.motion_fit import simulated as simulated
 from kapitza.units import HERTZ, TURN, angle, quantity
 
 GRAVITY = 9.80665        # m/s^2
-CERTAIN = 10.83          # of the F statistic of one more number: less happens to 1 in 1000 tracks by chance
+CERTAIN = 10.83          # F statistic of one more number: less happens to 1 in 1000 tracks by chance
 ALIKE = 0.5              # correlation of neighbouring residuals, from which on the model does not describe the track
 # Strongest line in the spectrum of residuals, in means: noise has a stronger one in 1 of 10^6 tracks
 LINE = 20.0
-# Of the swing in the residuals, from which on such a track is refused: of a free decay, of a driven track
+# Share of the swing in the residuals from which a track is refused: of a free decay, of a driven track
 SHARES = 0.05, 0.01
 DETERMINED = 0.1         # largest error of the natural frequency, in natural frequencies
 
@@ -168,7 +168,7 @@ class Fit:
             raise ValueError("a free decay knows no shaker: give frequency and amplitude, such as frequency='50 Hz', "
                              "amplitude='8 mm'")
         quality = self.quality_factor(swing)
-        if math.isinf(quality):  # which a scene has not: the least that the track allows
+        if math.isinf(quality):  # a scene cannot have it: the least that the track allows
             values, errors = self.best.values, self.best.errors
             quality = values["omega0"] / max(values["viscous"] + errors["viscous"], 1e-9 * values["omega0"])
         pendulum = {"length": f"{self.length:.9g} m", "quality_factor": float(f"{quality:.6g}"), "frequency": frequency,

@@ -9,7 +9,7 @@ from kapitza.layout import VARIABLES
 KINDS = VARIABLES["sweep", "branch_start_kind"]["flags"]
 DOUBLING, BREAKING = KINDS.index("period_doubling"), KINDS.index("symmetry_breaking")
 INVERTED = VARIABLES["sweep", "branch_centre"]["flags"].index("inverted")
-SAME = 1e-9  # of the value: both sides of an event are located on their own
+SAME = 1e-9  # relative to the value: both sides of an event are located separately
 
 
 def flutter(sweep: xarray.Dataset) -> xarray.Dataset:

@@ -10,7 +10,7 @@ from kapitza.motion_fit import Model, fitted
 from kapitza.units import TURN
 
 NAME = "viscous"
-MOST_PERIODS = 10000  # of the pendulum and the drive in a track
+MOST_PERIODS = 10000  # longest track, in periods of the pendulum and of the drive
 FIRST_SWINGS = 2.5  # slow swings of the first part of the track that is fitted
 FIRST_SAMPLES = 30  # smallest number of samples in that part
 # Values of drive omega / sqrt(2), in slow frequencies, with which the search begins; above 1 = inverted.

@@ -55,7 +55,7 @@ NEEDED = {
 }
 _BRANCHES = ("branch_start branch_end branch_start_kind branch_end_kind branch_name branch_period branch_winding "
              "branch_centre branch_mirror")
-# What a group may hold, and then whole: a part is there if its first variable is.
+# Parts that a group may hold, then whole: a part is there if its first variable is.
 OPTIONAL = {
     "plane": [_part("end start_theta start_velocity end_period end_winding end_centre exponent settling_time"),
               _part("name period winding centre points")],
@@ -141,7 +141,7 @@ def _fault(dataset: xarray.Dataset, group: str, name: str) -> str | None:
     if name in dataset.dims and values.dtype.kind == "f" and not np.isfinite(values).all():
         return f"{name} is an axis with values that are not finite"
     if name in dataset.dims and name in GRIDS:
-        # What tells cells apart where doubles near their centres do not
+        # Offsets tell cells apart where doubles near their centres do not
         values = dataset.get(f"{name}_offset", dataset[name]).values
     if name in dataset.dims and name in GRIDS and not (np.diff(values) > 0).all():
         return f"{name} is an axis that does not go up"

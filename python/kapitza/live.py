@@ -36,7 +36,7 @@ class Live:
         given = self._library.ffi.new("kapitza_pendulum **")
         self._library.call("kapitza_pendulum_create", scene.encode(), given)
         self._own = self._library.ffi.gc(given[0], self._library.lib.kapitza_pendulum_free)
-        self._fault: BaseException | None = None  # that a callback has raised
+        self._fault: BaseException | None = None  # raised by a callback
 
     def _given(self, kind: str, name: str, *arguments: Any) -> Iterator[Any]:
         """What a function makes as its last argument; it is freed behind the loop."""

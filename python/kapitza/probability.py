@@ -16,7 +16,7 @@ from kapitza.table import CENTRES, cells_of, edges_of
 if TYPE_CHECKING:
     from kapitza.result import Result
 
-Z = 1.959963984540054  # of a 95 % interval
+Z = 1.959963984540054  # normal quantile of a 95 % interval
 CYCLE, CHAOTIC = 0, 1  # codes of the variable `end` of a plane
 Row = tuple[str, float, float, float]  # name, probability, low, high
 OUTSIDE, NOT_SETTLED = "outside the window", "not settled"

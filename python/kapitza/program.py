@@ -13,15 +13,14 @@ from typing import Any
 
 from kapitza.scene import Scene, passed_on
 
-# What mpirun needs in containers and on small machines: root may run it, and ranks may outnumber cores. Variables,
+# Settings of mpirun in containers and on small machines: root may run it, and ranks may outnumber cores. Variables,
 # because every MPI has other options for it (OMPI: Open MPI 4; PRTE: Open MPI 5; MPICH needs none).
 MPI_SETTINGS = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
     "OMPI_MCA_orte_execute_quiet": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
     "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
 }
-# What launchers tell a process of a job, which its children must not take for their own; and by what such a process is
-# known.
+# Variables of launchers that children of a process must not take for their own, and those that show a process of a job.
 JOB_SETTINGS = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "ORTE_", "HYDI_", "HYDRA_", "MPI_LOCAL", "SLURM_")
 IN_A_JOB = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_STEP_ID"}
 FEWEST_MOST_RANKS, RANKS_PER_CORE = 64, 8

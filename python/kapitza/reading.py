@@ -102,7 +102,7 @@ def _too_large(path: Path, name: str) -> str | None:
     with h5py.File(path, "r") as file:
         size = sum(item.nbytes for item in file[name].values() if isinstance(item, h5py.Dataset))
     memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
-    if 8 * size > memory:  # what reading and drawing it takes
+    if 8 * size > memory:  # memory for reading and drawing it
         return (f"the group {name} holds {size / 1e9:.3g} GB, too much for a picture with {memory / 1e9:.3g} GB of "
                 "memory")
     return None

@@ -15,8 +15,8 @@ from kapitza.result import BadFile
 
 FORMATS = (".mp4", ".gif")
 RATE = 25.0  # pictures a second, as the explorer plays them
-MOST_PIXELS = 7680 * 4320  # of a picture: those of an 8K screen
-MOST_BYTES = 4 * MOST_PIXELS  # of a PNG
+MOST_PIXELS = 7680 * 4320  # pixels of a picture on an 8K screen
+MOST_BYTES = 4 * MOST_PIXELS  # bytes of a PNG
 PNG = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"  # how each begins; width and height follow
 
 

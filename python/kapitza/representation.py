@@ -40,7 +40,7 @@ def _studies(result: "Result") -> list[str]:
                     sizes, missing = dataset.sizes, missing_text(dataset)
                     if "lacking_high" in dataset.attrs:
                         missing += f"; {lacking_text(dataset.attrs['lacking_high'])}"
-            except Exception:  # of a damaged file: which error depends on the damage
+            except Exception:  # the error of a damaged file depends on the damage
                 lines.append(f"{name}: damaged")
             else:
                 lines.append(f"{name}: " + " x ".join(f"{size} {axis}" for axis, size in sizes.items()) + missing)

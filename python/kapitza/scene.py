@@ -176,7 +176,7 @@ def texts(value: Any) -> Any:
     """The value as nested dicts and lists of texts that the program reads."""
     if isinstance(value, Mapping):
         return {str(key): texts(item) for key, item in value.items()}
-    if hasattr(value, "tolist"):  # of numpy
+    if hasattr(value, "tolist"):  # a number or an array of numpy
         value = value.tolist()
     if isinstance(value, Sequence) and not isinstance(value, str):
         return [texts(item) for item in value]

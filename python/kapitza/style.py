@@ -55,7 +55,7 @@ _OKLAB = (np.array([[0.4122214708, 0.5363325363, 0.0514459929], [0.2119034982, 0
                     [0.0259040371, 0.7827717662, -0.8086757660]]))
 _OKLAB_INVERSE = tuple(np.linalg.inv(matrix) for matrix in _OKLAB)
 
-TORQUES = ("torque", "torque_amplitude")  # of the group pendulum
+TORQUES = ("torque", "torque_amplitude")  # attributes of the group pendulum
 
 # Codes of the variable `centre`.
 DOWN, INVERTED, ROTATING = 0, 1, 2

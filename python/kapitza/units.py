@@ -11,9 +11,8 @@ import numpy as np
 import xarray
 
 TURN = 2 * math.pi
-# What a long_name says behind its last ", in " -> the unit in SI, and what one of it is there for a drive of 1 rad/s
-# and of omega rad/s:
-# factor * omega ** power.
+# Unit at the end of a long_name -> the unit in SI, factor and power: one of it is factor * omega ** power there, for a
+# drive of omega rad/s.
 SI: dict[str, tuple[str, float, int]] = {
     "rad per drive radian": ("rad s-1", 1, 1), "drive radians": ("s", 1, -1), "drive periods": ("s", TURN, -1),
     "1 per drive period": ("s-1", 1 / TURN, 1), "drive frequencies": ("Hz", 1 / TURN, 1),

@@ -15,7 +15,7 @@ import numpy as np
 from kapitza.options import Parser, wrong_ending
 from kapitza.result import BadFile, Result
 
-VARIABLES = ("attractor", "settling_time", "evidence")  # of the group basin, over velocity and theta
+VARIABLES = ("attractor", "settling_time", "evidence")  # variables of the group basin, over velocity and theta
 
 
 def write(result: Result, output: Path) -> None:

@@ -15,16 +15,20 @@ def mathieu_m(characteristic, k):
 
 
 def fast_motion(runs, known):
-    """(9): the slow angle with xi(t) against the angle itself, after a release of 10 degrees from inverted, epsilon = 0.15."""
-    pendulum, start, periods = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.15}, np.pi + np.radians(10), 5
+    """(9): the slow angle with xi(t) against the angle itself, after a release of 10 degrees from inverted, epsilon =
+    0.15."""
+    pendulum, start, periods = {"quality_factor": 5, "drive_frequency": 11,
+                                "drive_amplitude": 0.15}, np.pi + np.radians(10), 5
     slow, _ = runs(
-        {"pendulum": pendulum, "orbit": {"model": "effective", "start": {"theta": start, "velocity": 0}, "periods": periods}}, "orbit"
+        {"pendulum": pendulum, "orbit": {"model": "effective", "start": {"theta": start, "velocity": 0},
+                                         "periods": periods}}, "orbit"
     )
 
     def motion(t, y):
         return y[1], -y[1] / 55 - (1 / 121 - 0.15 * np.cos(t)) * np.sin(y[0])
 
-    true = solve_ivp(motion, (0, slow["time"][-1]), (start + slow["xi"][0], 0), "DOP853", slow["time"], rtol=1e-12, atol=1e-12).y[0]
+    true = solve_ivp(motion, (0, slow["time"][-1]), (start + slow["xi"][0], 0), "DOP853", slow["time"], rtol=1e-12,
+                     atol=1e-12).y[0]
     without, with_xi = (np.abs(angle - true).max() for angle in (slow["theta"], slow["theta"] + slow["xi"]))
     yield Number(
         "(9)",
@@ -67,7 +71,8 @@ def boundaries(runs, known):
             ("(6)", "upper boundary of the hanging position", "blackburn_down_upper", 1, "eq6_down"),
         ):
             if not damping:
-                yield Number(equation, f"{what}, Omega = {omega}", at(chart, sign * k, curve), reference=row[key], bar=1e-9)
+                yield Number(equation, f"{what}, Omega = {omega}", at(chart, sign * k, curve), reference=row[key],
+                             bar=1e-9)
     k = 1 / 121
     free, _ = curves(runs, -k, k, 2, names)
     damped, _ = curves(runs, -k, k, 2, names, quality_factor=5.0)
@@ -80,7 +85,8 @@ def boundaries(runs, known):
         reference=0.450 + 2.22 / 121,
         bar=1e-12,
     )
-    for what, curve, value in (("lower", "exact_1", lambda q: mathieu_a(0, q)), ("upper", "exact_2", lambda q: mathieu_b(1, q))):
+    for what, curve, value in (("lower", "exact_1", lambda q: mathieu_a(0, q)),
+                               ("upper", "exact_2", lambda q: mathieu_b(1, q))):
         text = f"{what} boundary of the inverted position, Omega = 11, exact"
         yield Number("Figs 2, 3", text, at(free, -k, curve), reference=mathieu_m(value, -k), bar=1e-9)
     near, _ = curves(runs, 0.25 - 1e-4, 0.25, 2, ["exact_2", "blackburn_tangent"])
@@ -100,7 +106,8 @@ def boundaries(runs, known):
         kind="approximation",
     )
     yield Number(
-        "Sec. III", "epsilon where flutter begins, Omega = 11, Q = 5, from the linear equation", at(damped, -k, "damped_1"), "0.468"
+        "Sec. III", "epsilon where flutter begins, Omega = 11, Q = 5, from the linear equation",
+        at(damped, -k, "damped_1"), "0.468"
     )
     yield Number(
         "Sec. II",
@@ -122,9 +129,11 @@ def boundaries(runs, known):
 
 
 def potential(runs, known):
-    """(11), (12), Fig. 5: the effective potential; the values at one angle by quadrature (docs/explanation/stability.md)."""
+    """(11), (12), Fig. 5: the effective potential; the values at one angle by quadrature
+    (docs/explanation/stability.md)."""
     pendulum = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
-    values, _ = runs({"pendulum": pendulum, "potential": {"drive_amplitudes": [0.13, 0.3], "theta": {"count": 20001}}}, "potential")
+    values, _ = runs({"pendulum": pendulum, "potential": {"drive_amplitudes": [0.13, 0.3], "theta": {"count": 20001}}},
+                     "potential")
     from scipy.interpolate import CubicSpline
 
     for name, what, exact in (
@@ -141,20 +150,22 @@ def potential(runs, known):
         )
     rim = known["blackburn_fig6_7_release"]["11_20_0.13"]["well_rim_from_top_deg"]
     yield Number(
-        "(12)", "angle of the rim of the well at epsilon = 0.13, degrees", 180 - np.degrees(values["rim"][0]), reference=rim, bar=1e-9
+        "(12)", "angle of the rim of the well at epsilon = 0.13, degrees", 180 - np.degrees(values["rim"][0]),
+        reference=rim, bar=1e-9
     )
 
 
 def releases(runs, known):
     """Figs 6 and 7: releases from rest, scanned in whole degrees as the figures were; and Fig. 6's sentence on them.
 
-    A reference of 0 says that one degree fails. The edge is known less well where motions settle slowly (epsilon = 0.13 and below)
-    and where it is fractal (0.3 and above); below the onset of the inverted state there is none.
+    A reference of 0 says that one degree fails. The edge is known less well where motions settle slowly (epsilon = 0.13
+    and below) and where it is fractal (0.3 and above); below the onset of the inverted state there is none.
     """
     groups = {}
     for name, row in known["blackburn_fig6_7_release"].items():
         omega, quality, epsilon = map(float, name.split("_"))
-        if row["first_fail_deg"] is not None and epsilon > float(known[f"blackburn_fig4_Omega{omega:g}_QNone"]["eps_lower_exact"]):
+        if row["first_fail_deg"] is not None and epsilon > float(
+            known[f"blackburn_fig4_Omega{omega:g}_QNone"]["eps_lower_exact"]):
             groups.setdefault((omega, quality), []).append((epsilon, row))
     for (omega, quality), rows in groups.items():
         pairs = [rows[i : i + 2] if i + 1 < len(rows) else rows[i - 1 : i + 1] for i in range(0, len(rows), 2)]
@@ -171,20 +182,23 @@ def releases(runs, known):
             for index, (epsilon, row) in enumerate(pair):
                 yield Number(
                     "Fig. 6" if quality == 20 else "Fig. 7",
-                    f"smallest angle of a release that fails, Omega = {omega:g}, Q = {quality:g}, epsilon = {epsilon:g}, degrees",
+                    f"smallest angle of a release that fails, Omega = {omega:g}, Q = {quality:g}, epsilon = "
+                    f"{epsilon:g}, degrees",
                     np.degrees(values["release_angle_scan"][index]),
                     reference=row["first_fail_deg"],
                     bar=_release_bar(epsilon, row["first_fail_deg"]),
                 )
     values, _ = sweep(
-        runs, {"quality_factor": 20, "drive_frequency": 11, "drive_amplitude": 0.3}, "drive_amplitude", 0.13, 0.135, 2, "release_angle"
+        runs, {"quality_factor": 20, "drive_frequency": 11, "drive_amplitude": 0.3}, "drive_amplitude", 0.13, 0.135, 2,
+        "release_angle"
     )
     yield Number(
         "Fig. 6",
         "angle below which every release stays, Omega = 11, Q = 20, epsilon = 0.13, degrees",
         np.degrees(values["release_angle"][0]),
         "45",
-        remark="The paper says that the angle is always above 45 degrees. This holds for epsilon from 0.15 to 0.49 only.",
+        remark="The paper says that the angle is always above 45 degrees. This holds for epsilon from 0.15 to 0.49 "
+               "only.",
     )
 
 
@@ -195,7 +209,8 @@ def _release_bar(epsilon, first):
 
 
 def attractors(runs, known):
-    """Figs 11 to 15: every attractor of the five pictures, and its share of starts with |v| < 3 (reference: 1500 random starts)."""
+    """Figs 11 to 15: every attractor of the five pictures, and its share of starts with |v| < 3 (reference: 1500 random
+    starts)."""
     for epsilon, table in known["blackburn_fig11_15_attractors_Q5_Omega11"].items():
         scene = {
             "pendulum": FIVE | {"drive_amplitude": float(epsilon)},
@@ -204,7 +219,8 @@ def attractors(runs, known):
         values, _ = runs(scene, "attractors")
         for row in table["attractors"]:
             points = np.array(row["strobe_points"], dtype=float)
-            gap = np.abs(np.exp(1j * values["strobe_theta"]) - np.exp(1j * points[0, 0])) + np.abs(values["strobe_velocity"] - points[0, 1])
+            gap = np.abs(np.exp(1j * values["strobe_theta"])
+                         - np.exp(1j * points[0, 0])) + np.abs(values["strobe_velocity"] - points[0, 1])
             id_, phase = np.unravel_index(np.nanargmin(gap), gap.shape)
             what = f"{row['kind']} at epsilon = {epsilon}"
             exact = max((complex(text) for text in row["multipliers"]), key=lambda value: (abs(value), value.imag))
@@ -219,13 +235,16 @@ def attractors(runs, known):
                 bar=1e-9,
             )
             yield Number(
-                "Figs 11-15", f"real part of the multiplier of {what}", values["multiplier_re"][id_, 0], reference=exact.real, bar=1e-7
+                "Figs 11-15", f"real part of the multiplier of {what}", values["multiplier_re"][id_, 0],
+                reference=exact.real, bar=1e-7
             )
-            yield Number("Figs 11-15", f"share of the starts of {what}", values["fraction"][id_], reference=share, bar=doubt)
+            yield Number("Figs 11-15", f"share of the starts of {what}", values["fraction"][id_], reference=share,
+                         bar=doubt)
 
 
 def cores(runs, known):
-    """Figs 11 to 15: how far up theta = pi, in steps of 0.005 of the velocity, starts stay about inverted; finer steps find more gaps."""
+    """Figs 11 to 15: how far up theta = pi, in steps of 0.005 of the velocity, starts stay about inverted; finer steps
+    find more gaps."""
     for epsilon, row in known["blackburn_fig11_15_core_extent_v_at_theta_pi"].items():
         scene = {
             "pendulum": FIVE | {"drive_amplitude": float(epsilon)},

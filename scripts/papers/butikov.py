@@ -1,11 +1,13 @@
-"""The numbers of Butikov (2018). A function gives those of one part of the paper; equations and figures are counted as printed."""
+"""The numbers of Butikov (2018). A function gives those of one part of the paper; equations and figures are counted as
+printed."""
 
 import numpy as np
 
 from .number import Number
 from .runs import at, cosine, curves, cycle, sine, undamped
 
-CURVES = {f"curve{n}": [f"exact_{n}", f"butikov_{n}", *([f"butikov_{n}_refined"] if n > 3 else [])] for n in range(1, 6)}
+CURVES = {f"curve{n}": [f"exact_{n}", f"butikov_{n}", *([f"butikov_{n}_refined"] if n > 3 else [])]
+          for n in range(1, 6)}
 FORMULAS = {1: "(3)", 2: "(4)", 3: "(5)", 4: "(6)", 5: "(7)"}
 
 
@@ -16,8 +18,10 @@ def zones(runs, known):
     for n in range(1, 6):
         for row in known[f"butikov_fig1_curve{n}"]:
             k = float(row["k"])
-            yield Number("Fig. 1", f"m of curve {n} at k = {k:.9g}, exact", value(k, f"exact_{n}"), reference=row["m_exact"], bar=1e-9)
-            yield Number(FORMULAS[n], f"m of curve {n} at k = {k:.9g}", value(k, f"butikov_{n}"), reference=row["m_formula"], bar=1e-9)
+            yield Number("Fig. 1", f"m of curve {n} at k = {k:.9g}, exact", value(k, f"exact_{n}"),
+                         reference=row["m_exact"], bar=1e-9)
+            yield Number(FORMULAS[n], f"m of curve {n} at k = {k:.9g}", value(k, f"butikov_{n}"),
+                         reference=row["m_formula"], bar=1e-9)
             if n > 3:
                 yield Number(
                     "(17)" if n == 4 else "(19)",
@@ -26,7 +30,8 @@ def zones(runs, known):
                     reference=row["m_formula2"],
                     bar=1e-9,
                 )
-    yield Number("(4)", "m of curve 2 at k = 0", value(0, "butikov_2"), "0.4542", known["butikov_k0_curve2_m_formula"], 1e-12)
+    yield Number("(4)", "m of curve 2 at k = 0", value(0, "butikov_2"), "0.4542", known["butikov_k0_curve2_m_formula"],
+                 1e-12)
     yield Number(
         "(4)",
         "m of curve 2 at k = 0, exact",
@@ -41,14 +46,16 @@ def zones(runs, known):
 
 def turns(runs, known):
     """Where curve 3 turns back: the last k at which it exists, and the middle of its two branches there."""
-    for name, low, high, printed in (("exact_3", 0.63042, 0.630421, True), ("butikov_3", 0.65 - 1e-9, 0.65 + 1e-9, False)):
+    for name, low, high, printed in (("exact_3", 0.63042, 0.630421, True),
+                                     ("butikov_3", 0.65 - 1e-9, 0.65 + 1e-9, False)):
         chart, _ = curves(runs, low, high, 10001, [name])
         last = np.flatnonzero(np.isfinite(chart[name]))[-1]
         exact = known[f"butikov_curve3_turning_point_{'exact' if printed else 'formula'}"]
         middle = (chart[name][last] + chart[f"{name}_upper"][last]) / 2
         remark = ("The printed number follows from the approximate equation (5).", "approximation") if printed else ()
         what = "exact" if printed else "by (5)"
-        yield Number("Fig. 1", f"k where curve 3 turns back, {what}", chart["k"][last], "0.65", exact["k"], 1e-9, *remark)
+        yield Number("Fig. 1", f"k where curve 3 turns back, {what}", chart["k"][last], "0.65", exact["k"], 1e-9,
+                     *remark)
         yield Number("Fig. 1", f"m where curve 3 turns back, {what}", middle, "1.6", exact["m"], 1e-7, *remark)
 
 
@@ -62,10 +69,12 @@ def parametric_oscillation(runs, known):
         if name == "Q20":
             yield Number("Fig. 2", "period of the oscillation, drive periods", attributes["period"], "2")
         yield Number(
-            "Fig. 2", f"angle of the strobe point at Q = {name[1:]}, rad", values["strobe_theta"][0], reference=row["theta"], bar=1e-9
+            "Fig. 2", f"angle of the strobe point at Q = {name[1:]}, rad", values["strobe_theta"][0],
+            reference=row["theta"], bar=1e-9
         )
         yield Number(
-            "Fig. 2", f"velocity of the strobe point at Q = {name[1:]}", values["strobe_velocity"][0], reference=row["v"], bar=1e-9
+            "Fig. 2", f"velocity of the strobe point at Q = {name[1:]}", values["strobe_velocity"][0],
+            reference=row["v"], bar=1e-9
         )
         yield Number(
             "Fig. 2",
@@ -81,8 +90,10 @@ def third_harmonics(runs, known):
     row = known["butikov_fig3"]
     k = float(row["k_from_omega"])
     chart, _ = curves(runs, k, 2 * k, 2, ["exact_3", "butikov_3"])
-    yield Number("Fig. 3", "m of curve 3 at omega = 1.529 omega0, exact", at(chart, k, "exact_3"), reference=row["m_exact"], bar=1e-9)
-    yield Number("Fig. 3", "m of curve 3 at omega = 1.529 omega0, by (5)", at(chart, k, "butikov_3"), reference=row["m_formula"], bar=1e-9)
+    yield Number("Fig. 3", "m of curve 3 at omega = 1.529 omega0, exact", at(chart, k, "exact_3"),
+                 reference=row["m_exact"], bar=1e-9)
+    yield Number("Fig. 3", "m of curve 3 at omega = 1.529 omega0, by (5)", at(chart, k, "butikov_3"),
+                 reference=row["m_formula"], bar=1e-9)
     values, _ = cycle(runs, {"k": k, "damping": 0, "m": float(row["m_exact"])}, 0.1, 0, model="mathieu", period=2)
     yield Number(
         "Fig. 3",
@@ -107,20 +118,25 @@ def third_harmonics(runs, known):
     )
     for name, row in known["butikov_fig4_k0"].items():
         damping, m = name.removeprefix("beta").split("_m")
-        values, _ = cycle(runs, {"k": 0, "damping": float(damping), "m": float(m)}, float(row["theta"]), float(row["v"]), period=2)
+        values, _ = cycle(runs, {"k": 0, "damping": float(damping), "m": float(m)}, float(row["theta"]),
+                          float(row["v"]), period=2)
         lines, where = values["line_amplitude"], f"k = 0, beta = {damping}, m = {m}"
         yield Number("Fig. 4", f"amplitude of line 1/2 at {where}, rad", lines[1], reference=row["A1"], bar=1e-8)
         yield Number(
-            "Fig. 4", f"amplitude of line 3/2 over that of line 1/2 at {where}", lines[3] / lines[1], reference=row["A3_over_A1"], bar=1e-8
+            "Fig. 4", f"amplitude of line 3/2 over that of line 1/2 at {where}", lines[3] / lines[1],
+            reference=row["A3_over_A1"], bar=1e-8
         )
         yield Number(
-            "Fig. 4", f"amplitude of line 5/2 over that of line 1/2 at {where}", lines[5] / lines[1], reference=row["A5_over_A1"], bar=1e-8
+            "Fig. 4", f"amplitude of line 5/2 over that of line 1/2 at {where}", lines[5] / lines[1],
+            reference=row["A5_over_A1"], bar=1e-8
         )
 
 
 def transition_orbits(runs, known):
-    """Figs 5 and 6: the oscillations on curves 4 and 5, whose harmonics follow from the recurrence of the Mathieu functions."""
-    for place, scene, part, lines in (("Fig. 5", "butikov-fig05", sine, (2, 3)), ("Fig. 6", "butikov-fig06", cosine, (2, 3))):
+    """Figs 5 and 6: the oscillations on curves 4 and 5, whose harmonics follow from the recurrence of the Mathieu
+    functions."""
+    for place, scene, part, lines in (("Fig. 5", "butikov-fig05", sine, (2, 3)),
+                                      ("Fig. 6", "butikov-fig06", cosine, (2, 3))):
         values, attributes = runs(scene, "orbit")
         k, m = (0.9, 1.106725136346255) if place == "Fig. 5" else (1.1, 0.5212279114123391)
         orders = np.arange(1 if place == "Fig. 5" else 0, 40)
@@ -146,15 +162,18 @@ def nodding(runs, known):
         points = np.array(row["strobe_theta_v_at_t0"], dtype=float)
         pendulum = {"k": row["k"], "damping": float(row["beta"]), "m": row["m"]}
         values, attributes = cycle(runs, pendulum, *(points[0] + [1e-3, -1e-3]))
-        where = f"{row['n']}-nodding about {'down' if row['about'] == 'bottom' else 'inverted'}, k = {row['k']}, m = {row['m']}"
+        where = (f"{row['n']}-nodding about {'down' if row['about'] == 'bottom' else 'inverted'}, k = {row['k']}, m = "
+                 f"{row['m']}")
         exact = max((complex(text) for text in row["multipliers_of_P_n"]), key=lambda value: value.imag)
         ours = complex(attributes["multiplier_re"], attributes["multiplier_im"])
         strongest, amplitude = max(row["spectrum_amplitudes"].items(), key=lambda line: line[1])
         yield Number("Figs 7, 8", f"period of the {where}", attributes["period"], reference=row["n"])
         yield Number(
-            "Figs 7, 8", f"velocity of the strobe point of the {where}", values["strobe_velocity"][0], reference=points[0, 1], bar=1e-9
+            "Figs 7, 8", f"velocity of the strobe point of the {where}", values["strobe_velocity"][0],
+            reference=points[0, 1], bar=1e-9
         )
-        yield Number("Figs 7, 8", f"real part of the multiplier of the {where}", ours.real, reference=exact.real, bar=1e-7)
+        yield Number("Figs 7, 8", f"real part of the multiplier of the {where}", ours.real, reference=exact.real,
+                     bar=1e-7)
         yield Number(
             "Figs 7, 8",
             f"amplitude of line {strongest} of the {where}, rad",
@@ -179,7 +198,8 @@ def subharmonics(runs, known):
         for row in known[f"butikov_fig9_n{n}"]:
             k, printed = float(row["k"]), row["roots_as_printed"]
             yield Number(
-                "Fig. 9", f"m of the curve of order {n} at k = {k:g}", value(k, f"subharmonic_{n}"), reference=row["m_exact"], bar=1e-9
+                "Fig. 9", f"m of the curve of order {n} at k = {k:g}", value(k, f"subharmonic_{n}"),
+                reference=row["m_exact"], bar=1e-9
             )
             ours = value(k, f"butikov_subharmonic_{n}")
             if printed:
@@ -190,7 +210,8 @@ def subharmonics(runs, known):
                     printed[0],
                     row["m_eq21"],
                     1e-9,
-                    "The last terms of rows 3 to 5 are printed with a plus. Right is a minus, as in the paper's equation (22).",
+                    "The last terms of rows 3 to 5 are printed with a plus. Right is a minus, as in the paper's "
+                    "equation (22).",
                 )
 
 
@@ -201,7 +222,8 @@ def subharmonic_orbits(runs, known):
     yield Number("(22)", "m of the curve of order 6 at k = 0", m, "0.2256", exact["m_exact"], 1e-12)
     yield Number("Fig. 10a", "m of the curve of order 6 at k = 0", m, "0.226", exact["m_exact"], 1e-12)
     values, _ = runs("butikov-fig10a", "orbit")
-    printed = {"A5": ("0.163",), "A7": ("-0.083",), "A11": ("-0.006", "The paper's own equation gives -0.0055."), "A13": ("0.002",)}
+    printed = {"A5": ("0.163",), "A7": ("-0.083",), "A11": ("-0.006", "The paper's own equation gives -0.0055."),
+               "A13": ("0.002",)}
     for name, words in printed.items():
         yield Number(
             "(22)",
@@ -246,4 +268,5 @@ def subharmonic_orbits(runs, known):
             )
 
 
-PARTS = [zones, turns, parametric_oscillation, third_harmonics, transition_orbits, nodding, subharmonics, subharmonic_orbits]
+PARTS = [zones, turns, parametric_oscillation, third_harmonics, transition_orbits, nodding, subharmonics,
+         subharmonic_orbits]

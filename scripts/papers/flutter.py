@@ -22,10 +22,12 @@ def flutter(runs, known):
             )
     for row in known["blackburn_fig9_10_flutter_Q5_Omega11"]:
         values, _ = cycle(
-            runs, FIVE | {"drive_amplitude": float(row["eps"])}, np.pi + float(row["phi_strobe"]), float(row["dphi_strobe"]), period=2
+            runs, FIVE | {"drive_amplitude": float(row["eps"])}, np.pi + float(row["phi_strobe"]),
+            float(row["dphi_strobe"]), period=2
         )
         amplitude = np.abs(values["maximum_angle"]).max()
-        yield Number("Figs 9, 10", f"amplitude of flutter at epsilon = {row['eps']}, rad", amplitude, reference=row["amp_rad"], bar=1e-8)
+        yield Number("Figs 9, 10", f"amplitude of flutter at epsilon = {row['eps']}, rad", amplitude,
+                     reference=row["amp_rad"], bar=1e-8)
         if row["eps"] == "0.5":
             yield Number(
                 "Fig. 8",
@@ -62,7 +64,8 @@ def grown(runs, omega, low, high, count):
 
 
 def flutter_ends(runs, known):
-    """Where flutter ends, beside the text's 0.53: it loses its symmetry, then doubles its period; releases fail earlier."""
+    """Where flutter ends, beside the text's 0.53: it loses its symmetry, then doubles its period; releases fail
+    earlier."""
     for omega in (*range(5, 16), 20, 30):
         row = known["blackburn_fig4_upper_flutter"].get(f"Omega{omega}_Q5")
         if row is None:
@@ -70,7 +73,8 @@ def flutter_ends(runs, known):
         found = grown(runs, omega, 0.44, 0.62, 10)
         for what, name, key, bar in (("begins", "onset", "eps_c", 1e-9),
                                      ("loses its symmetry", "asymmetry", "eps_symmetry_breaking", 1e-6)):
-            yield Number("Fig. 4", f"epsilon where flutter {what}, Omega = {omega}, Q = 5", found[name], reference=row[key], bar=bar)
+            yield Number("Fig. 4", f"epsilon where flutter {what}, Omega = {omega}, Q = 5", found[name],
+                         reference=row[key], bar=bar)
         if omega == 11:
             yield Number(
                 "Sec. III",
@@ -79,7 +83,8 @@ def flutter_ends(runs, known):
                 "0.53",
                 known["blackburn_flutter_cascade_Q5_Omega11"]["eps_period_doubling_of_asymmetric_flutter"],
                 1e-6,
-                "From 0.53 on, releases from rest do not reach flutter. The attractor exists up to 0.5717, where its period doubles.",
+                "From 0.53 on, releases from rest do not reach flutter. The attractor exists up to 0.5717, where its "
+                "period doubles.",
             )
 
 

@@ -8,7 +8,8 @@ FAILED = "FAILED"
 
 @dataclass
 class Number:
-    """`printed`: as the paper writes it; `reference`: by other methods, known to `bar`; `remark`: why ours is not what is printed."""
+    """`printed`: as the paper writes it; `reference`: by other methods, known to `bar`; `remark`: why ours is not what
+    is printed."""
 
     place: str
     quantity: str

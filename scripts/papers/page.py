@@ -60,20 +60,23 @@ def write_page(found, path: Path):
     """The page, and every number as rows of a CSV file of its name; returns the numbers that failed."""
     every = [number for _, numbers in found for number in numbers]
     failed = [number for number in every if number.agreement == FAILED]
-    right, approximate, erratum = (sum(number.agreement == word for number in every) for word in ("right", "approximation", "erratum"))
+    right, approximate, erratum = (sum(number.agreement == word for number in every)
+                                   for word in ("right", "approximation", "erratum"))
     summary = (f"{right} of the {len(every)} numbers are right. {approximate} differ because the paper approximates, "
                f"{erratum} because of an erratum in the paper. {len(failed)} failed.\n")
     lines = [HEAD, summary]
     lines += [
         "## What failed\n",
-        *(_table(failed, "place", "quantity", "paper", "reference", "ours", "agreement") if failed else ["No number failed.\n"]),
+        *(_table(failed, "place", "quantity", "paper", "reference", "ours", "agreement") if failed
+          else ["No number failed.\n"]),
     ]
     for title, numbers in found:
         differing = [number for number in numbers if number.printed and number.agreement != "right"]
         lines += [
             f"## {title}\n",
             *([SYMBOLS[title]] if title in SYMBOLS else []),
-            *_table(_first_of_each(differing), "place", "quantity", "paper", "ours", "ours - paper", "agreement", "remark"),
+            *_table(_first_of_each(differing), "place", "quantity", "paper", "ours", "ours - paper", "agreement",
+                    "remark"),
             _others([number for number in numbers if not number.printed]),
         ]
     lines += [(Path(__file__).parent / "errata.md").read_text()]
@@ -81,7 +84,8 @@ def write_page(found, path: Path):
     with path.with_suffix(".csv").open("w", newline="") as file:
         rows = csv.writer(file, lineterminator="\n")
         rows.writerow(["paper", *COLUMNS])
-        rows.writerows([title, *(COLUMNS[column](number) for column in COLUMNS)] for title, numbers in found for number in numbers)
+        rows.writerows([title, *(COLUMNS[column](number) for column in COLUMNS)] for title, numbers in found
+                       for number in numbers)
     return failed
 
 
@@ -97,7 +101,8 @@ def _first_of_each(numbers):
 def _others(numbers):
     """A sentence on the numbers of figures and equations, which the paper does not print."""
     parts = [abs(number.ours - number.reference) / number.bar for number in numbers if number.bar]
-    return (f"{len(numbers)} numbers of its figures and equations were compared with references; the largest difference is "
+    return (f"{len(numbers)} numbers of its figures and equations were compared with references; the largest "
+            "difference is "
             f"{max(parts, default=0):.1g} of its bar.\n")
 
 

@@ -33,7 +33,8 @@ class Runs:
             path = Path(self.folder.name) / f"{len(self.paths)}.h5"
             source = ROOT / "scenes" / f"{scene}.yaml" if isinstance(scene, str) else "-"
             done = subprocess.run(
-                [self.program, "run", source, "-o", path, "--progress", "never"], input=key, text=True, capture_output=True
+                [self.program, "run", source, "-o", path, "--progress", "never"], input=key, text=True,
+                capture_output=True
             )
             if done.returncode != 0:
                 raise RuntimeError(f"{key}: {done.stderr.strip()}")
@@ -85,7 +86,8 @@ def cycle(runs, pendulum, theta, velocity, **more):
 
 def sweep(runs, pendulum, parameter, low, high, count, measure, **more):
     return runs(
-        {"pendulum": pendulum, "sweep": {"parameter": parameter, "min": low, "max": high, "count": count, "measure": [measure], **more}},
+        {"pendulum": pendulum, "sweep": {"parameter": parameter, "min": low, "max": high, "count": count,
+                                         "measure": [measure], **more}},
         "sweep",
     )
 

@@ -44,7 +44,8 @@ def damped_tongues(runs, known):
         "2.32",
         remark="The lowest m is 2/sqrt(Q). The printed 2.32 belongs to exact tuning, k = 1.",
     )
-    yield Number("Sec. 6", "m at exact tuning of tongue 2 times sqrt(Q), at Q = 1000", np.sqrt(1000) * fine["tongue_2_tuned_m"], "2.32")
+    yield Number("Sec. 6", "m at exact tuning of tongue 2 times sqrt(Q), at Q = 1000",
+                 np.sqrt(1000) * fine["tongue_2_tuned_m"], "2.32")
     yield from _damped_curves(runs, known)
 
 
@@ -55,7 +56,8 @@ def _damped_curves(runs, known):
             names = (f"damped_{tongue}", f"butikov_damped_{tongue}")
             chart, _ = curves(runs, k, k + 0.01, 2, names, quality_factor=5)
             yield Number(
-                "Fig. 11", f"m of the edge of tongue {tongue} at Q = 5, k = {k:g}", at(chart, k, names[0]), reference=exact, bar=1e-9
+                "Fig. 11", f"m of the edge of tongue {tongue} at Q = 5, k = {k:g}", at(chart, k, names[0]),
+                reference=exact, bar=1e-9
             )
             yield Number(
                 f"({24 + tongue})",
@@ -68,7 +70,8 @@ def _damped_curves(runs, known):
     scale = values["line_amplitude"][1]
     for name, relative in next(row for key, row in known.items() if key.startswith("butikov_fig12")).items():
         part = cosine if name[0] == "C" else sine
-        yield Number("Fig. 12", f"{name} over the amplitude of line 1", part(values, int(name[1])) / scale, reference=relative, bar=1e-7)
+        yield Number("Fig. 12", f"{name} over the amplitude of line 1", part(values, int(name[1])) / scale,
+                     reference=relative, bar=1e-7)
 
 
 PARTS = [damped_tongues]

@@ -256,8 +256,8 @@ kz_status kz_app_run(const kz_options *options) {
     if (j.first && options->timings && (status == KZ_OK || status == KZ_STOPPED)) kz_timings_print(j.run.ranks, stdout);
     status = kz_scene_locate(status, j.text, j.length, options->scene, options->n_sets, options->sets);
     if (j.log) status = close_log(&j, status);
-    if (!j.first) kz_message_clear();  /* all have agreed on it, and rank 0 prints it, */
-    status = kz_message_print(status); /* before any rank ends: mpirun ends the others once one has failed */
+    if (!j.first) kz_message_clear();  /* rank 0 prints what all agreed on */
+    status = kz_message_print(status); /* printed before any rank ends: mpirun ends the others at a failure */
   }
   kz_ranks_set_overdue(j.run.ranks, NULL);
   kz_abandon_run(&(kz_run){0}, NULL);

@@ -42,7 +42,7 @@ kz_pause_fn kz_library_pause(void);
  * again. */
 kz_status kz_library_between(kapitza_pendulum *pendulum, kapitza_pause between, void *context);
 
-/* What the caller gets of a pendulum's numbers. */
+/* Returns a pendulum's numbers as the caller gets them. */
 kapitza_parameters kz_library_parameters(const kz_parameters *own);
 
 /* HDF5 serves one thread at a time. kz_library_store_work runs `work` while this thread has it, and ends *store if the

@@ -10,7 +10,7 @@ module kz_model_stretch
   integer, parameter :: CUBIC = 3
 
   abstract interface
-    !> beta and the drive relative to the final one as polynomials in x, at `turn` + x width drive periods.
+    !> Beta and the drive relative to the final one as polynomials in x, at `turn` + x width drive periods.
     pure subroutine course(along, beta, turn, width, damping, drive)
       import :: c_double, real128, CUBIC
       real(c_double), intent(in) :: along(4) !< Field `along` of the stretch

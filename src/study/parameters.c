@@ -18,7 +18,7 @@ static kz_pendulum from_junction(const kz_pendulum_keys *written) {
   return (kz_pendulum){.k = 1.0 / (omega * omega), .beta = 1.0 / (omega * sqrt(written->beta_c)), .m = 0};
 }
 
-/* omega in rad/s, however it is written. */
+/* Returns omega in rad/s, however it is written. */
 static double pivot_frequency(const kz_pendulum_keys *written) {
   return isnan(written->frequency) ? written->pivot_frequency : 2 * M_PI * written->frequency;
 }
@@ -27,7 +27,8 @@ static double inertia_of(const kz_pendulum_keys *written) {
   return isnan(written->length) ? written->inertia : written->mass * written->length * written->length;
 }
 
-/* beta from whatever says how swings decay: b/(I omega), 2/(tau omega), or omega0/(Q omega); `lever` = M r/I, 1/m. */
+/* Returns beta from whatever says how swings decay: b/(I omega), 2/(tau omega), or omega0/(Q omega); `lever` = M r/I,
+ * 1/m. */
 static double damping_of(const kz_pendulum_keys *written, double lever, double omega) {
   if (!isnan(written->decay_time)) return 2 / (written->decay_time * omega);
   if (!isnan(written->quality_factor)) return sqrt(lever * fabs(written->gravity)) / (written->quality_factor * omega);

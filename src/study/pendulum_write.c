@@ -1,7 +1,7 @@
 /* The group `pendulum` of the result file: the very numbers that were integrated, to which labels belong. */
 #include <math.h>
 
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "kapitza/study.h"
 
 const kz_variable kz_pendulum_variables[] = {

@@ -21,7 +21,7 @@ module kz_test_doublet
 contains
 
   function create(apart) bind(C, name='kz_test_doublet_create') result(handle)
-    !> velocities of the two fixed points, rad per drive radian
+    !> Velocities of the two fixed points, rad per drive radian
     real(dp), value :: apart
     type(c_ptr) :: handle
     type(dynamics_t), pointer :: d

@@ -22,7 +22,7 @@ from mpi_settings import MPI_SETTINGS
 
 pytest.register_assert_rewrite("explorer_page")  # its fixtures are a plugin of the modules that name it
 ROOT = Path(__file__).resolve().parents[2]
-EXTENSIVE = bool(os.environ.get("KAPITZA_EXTENSIVE"))  # what takes long is tried too
+EXTENSIVE = bool(os.environ.get("KAPITZA_EXTENSIVE"))  # long tests run too
 PROGRAM = Path(os.environ.get("KAPITZA", ROOT / "build" / "kapitza"))
 TEXT = h5py.string_dtype("utf-8")
 WALK = """\
@@ -300,7 +300,7 @@ def datasets(path):
 def flown(field, time, start, tolerance):
     """The state after `time` of u' = field(t, u), by an integrator that shares nothing with the program: scipy's
     DOP853."""
-    from scipy.integrate import solve_ivp  # which takes a second to load, and few workers need
+    from scipy.integrate import solve_ivp  # loaded here: it takes a second, and few workers need it
     return solve_ivp(field, (0, time), start, method="DOP853", rtol=tolerance, atol=0.1 * tolerance).y[:, -1]
 
 

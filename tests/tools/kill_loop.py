@@ -26,7 +26,7 @@ from mpi_settings import MPI_SETTINGS
 HANG = 90  # s
 KNOCKS = ["kill mpirun", "kill a rank", "kill all", "SIGTERM", "SIGINT", "SIGUSR1"]
 STOPPED, REFUSED = 75, 2
-# Of SIGUSR1: the stop was heard; or the signal came to mpirun, or to a rank, before it listened.
+# Statuses after SIGUSR1: the stop was heard; or the signal came to mpirun, or to a rank, before it listened.
 ENDINGS = (STOPPED, -signal.SIGUSR1, 128 + signal.SIGUSR1, 1)
 
 

@@ -17,12 +17,12 @@ from operator import mul
 import mpmath
 
 try:
-    from gmpy2 import mpz  # the same whole numbers, several times as fast
+    from gmpy2 import mpz  # integers that are several times as fast
 except ImportError:
     mpz = int
 
 GUARD, FEWEST_BITS = 110, 90
-OWN_BITS = 104  # of a difference
+OWN_BITS = 104  # bits of a difference
 WIDE = 20  # bits: a difference above 2^-20 rad becomes an orbit
 NEAR = 1e-4  # rad: of a strobe point of an attractor, within its basin
 LARGEST_TURN = 2.5  # rad: of a step

@@ -12,8 +12,8 @@ from pathlib import Path
 
 from selenium import webdriver
 
-HIGHEST = 2400  # of a picture, CSS pixels
-WINDOWS = (820, 1100)  # of a tablet and of a small screen, CSS pixels
+HIGHEST = 2400  # height of a picture, CSS pixels
+WINDOWS = (820, 1100)  # widths of a tablet and of a small screen, CSS pixels
 
 
 def browser(width):

@@ -30,7 +30,7 @@ contains
   function newton_periods(pendulum, settle, closeness, known) bind(C, name='kz_test_newton_periods') result(periods)
     type(pendulum_t), intent(in) :: pendulum
     integer(c_int64_t), value :: settle
-    !> how near an orbit must come back to itself, rad
+    !> Largest distance, rad, at which an orbit has come back to itself
     real(dp), value :: closeness
     integer(c_int64_t), intent(out) :: known
     integer(c_int64_t) :: periods

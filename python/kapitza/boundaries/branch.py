@@ -39,7 +39,7 @@ class Branch:
     point: Reals       # strobe point of the cycle: rad, rad per drive radian
     direction: Reals   # unit eigenvector
     multiplier: float  # above 1, over `periods`, in the branch's own direction of time
-    periods: int       # of a return, negative for a stable manifold
+    periods: int       # drive periods of a return, negative for a stable manifold
     distance: float    # rad: of the beginning from the cycle
 
     def points(self, places: Sequence[float]) -> tuple[Reals, Reals]:

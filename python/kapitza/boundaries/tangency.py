@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 FARTHER = 5    # factor by which branches begin farther away when the error is measured
 # Factor from the change that this makes to the error: the change is one sample of it, which may be larger
 MARGIN = 4
-HALVINGS = 10  # of the range, before Newton's method
+HALVINGS = 10  # halvings of the range before Newton's method
 STEPS = 16     # steps of a cycle along the whole range
 
 

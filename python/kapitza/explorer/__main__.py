@@ -18,5 +18,5 @@ except (BadFile, WrongArgument) as error:
     sys.exit(2)
 except OSError as error:  # the address could not be printed: a full disk, a closed pipe
     print(f"kapitza: error: view: {error.strerror or error}", file=sys.stderr)
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left would fail again at the end
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the rest would fail again at the end
     sys.exit(1)

@@ -41,4 +41,4 @@ def stories(explorer, request):
 
 
 ANSWERS = {"state": state, "scene": scene, "link": link, "stories": stories}
-RUNS = {"atlas": maps, "skeleton": skeleton}  # what takes longer: each takes the kept runs and the request, and gives answers in parts
+RUNS = {"atlas": maps, "skeleton": skeleton}  # long requests: (kept runs, request) -> answers in parts

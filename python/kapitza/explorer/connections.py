@@ -8,7 +8,7 @@ from http.server import ThreadingHTTPServer
 from socket import SHUT_RDWR, SO_REUSEADDR, SOL_SOCKET
 
 MOST = 128           # at once
-BACKLOG = 1024       # that the system keeps until they are accepted
+BACKLOG = 1024       # connections that the system keeps until they are accepted
 STRANGER = 10.0      # seconds, from the first to the last, of a connection that shows no token
 IDLE = 600.0         # seconds between two requests of a page
 

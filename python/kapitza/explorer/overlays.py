@@ -8,7 +8,7 @@ from kapitza.pendulum import Pendulum
 from .scene import BadRequest
 
 OVERLAYS = ("saddles", "manifolds")
-LENGTH = 14  # of each branch: rad and rad per drive radian together
+LENGTH = 14  # length of each branch: rad and rad per drive radian together
 
 
 def overlays(result):

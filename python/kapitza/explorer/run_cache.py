@@ -20,8 +20,8 @@ from .program import Refused, plain
 PATIENCE = 0.2   # seconds between two words on the progress; a page that has gone is noticed by them
 MOST_KEPT = 100  # results; the oldest go first
 LEFT = 3600.0    # seconds after which nobody works in a folder that has not changed
-CALM = 5         # of its nice value: the pictures of the page go first
-DAMAGE = (BadFile, LookupError, OSError, RuntimeError, TypeError, ValueError)  # that a file which is no longer whole is read with
+CALM = 5         # added to its nice value: the page's pictures go first
+DAMAGE = (BadFile, LookupError, OSError, RuntimeError, TypeError, ValueError)  # errors of reading a damaged file
 # Python that becomes the command behind it, which Linux kills with this process, however this ends (1: PR_SET_PDEATHSIG, 9: SIGKILL). Not a
 # preexec_fn, which is not safe beside threads.
 BOUND = """import ctypes, os, sys

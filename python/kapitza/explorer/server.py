@@ -16,7 +16,7 @@ from .program import Refused, Views
 from .run_cache import RunCache
 from .scene import BadRequest, Start
 
-MOST_BYTES = 65_536  # of a request
+MOST_BYTES = 65_536  # longest request
 MOST_NAME = 64       # characters of a view's name
 KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript"}
 FIRST = "first"      # the view that is begun before a page comes
@@ -205,7 +205,7 @@ class Handler(BaseHTTPRequestHandler):
         return request
 
     def _refuse(self, status, message):
-        self.close_connection = True  # what the request still holds is not read
+        self.close_connection = True  # the rest of the request is not read
         self._send_json(status, {"error": message})
 
     def _send_json(self, status, answer):

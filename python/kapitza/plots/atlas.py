@@ -23,7 +23,18 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from kapitza import style
-from kapitza.plots.atlas_classes import BREAKING, DOUBLING, FOLD, LEANS, SWINGS, belongs, centre_of, gives_birth, missing_text, motion_text
+from kapitza.plots.atlas_classes import (
+    BREAKING,
+    DOUBLING,
+    FOLD,
+    LEANS,
+    SWINGS,
+    belongs,
+    centre_of,
+    gives_birth,
+    missing_text,
+    motion_text,
+)
 from kapitza.plots.atlas_curves import DASHES, GREY, curve_points, mark_curves
 from kapitza.plots.atlas_labels import LIVING, kind_colours, label_areas, living, mark_points
 from kapitza.plots.atlas_line import draw_line
@@ -31,7 +42,7 @@ from kapitza.plots.page import BadOption, entitle, new_panels
 from kapitza.plots.parameter_axes import key_text
 from kapitza.result import Result
 
-NOT_KNOWN, UNKNOWN = 255, "#e7b9c4"  # of `attracting` where a curve is missing, and its colour
+NOT_KNOWN, UNKNOWN = 255, "#e7b9c4"  # `attracting` where a curve is missing, and its colour
 LONGEST = 16  # periods of the cycles whose curves are drawn
 STUDY = "an atlas"
 VIEWS = ("map", "motions", "line")
@@ -161,7 +172,7 @@ def line_page(result: Result, atlas: xarray.Dataset, x: float | None, y: float |
     fixed, varies, value = ("y", "x", y) if y is not None else ("x", "y", middle if x is None else x)
     unit = str(atlas.attrs.get(f"{fixed}_units", "1"))
     figure, (axes,) = new_panels(8.6, 5.4)
-    # What the program has, of one on an axis
+    # Units of the program in one unit of an axis
     scale = {which: float(atlas.attrs.get(f"{which}_written_scale", 1)) for which in "xy"}
     table = result.line(**{fixed: value * scale[fixed]})
     table["value"] /= scale[varies]

@@ -14,7 +14,7 @@ GREY = "#59626b"
 DASHES: dict[int, Any] = {FOLD: "-", DOUBLING: (0, (5, 2)), BREAKING: (0, (1.2, 1.4)), SWINGS: (0, (5, 2)),
                           LEANS: (0, (1.2, 1.4))}
 BOLD_UP_TO = 4  # longer cycles live in thin bands: their curves are thin
-SEEN = 1 / 110  # of the height of the map: a band that is narrower is not seen
+SEEN = 1 / 110  # share of the map's height: narrower bands are not seen
 FIRST = 2  # zorder of the thinnest
 SHORT = 8  # points of a curve: shorter pieces look like the piece before
 

@@ -13,7 +13,7 @@ from kapitza import style
 from kapitza.plots.parameter_axes import key_text
 
 NAMED = 0.02  # branches whose share is smaller everywhere are drawn as one band
-SHORTEST = 1 / 400  # of the range: shorter branches cannot be seen
+SHORTEST = 1 / 400  # share of the range: shorter branches cannot be seen
 INTERVALS = 12  # values, about, at which intervals of shares are drawn
 # Code of what happens at an end of a branch -> its mark and name.
 ENDS = {1: ("|", "fold"), 2: ("D", "period doubling"), 3: ("*", "Neimark-Sacker"), 4: ("s", "symmetry breaking"),
@@ -44,7 +44,7 @@ def branch_colours(sweep: xarray.Dataset, named: Iterable[int] | None = None) ->
     dimension = sweep["branch_period"].dims
     table = xarray.Dataset({name: (dimension, [kinds[branch][column] for branch in firsts])
                             for column, name in enumerate(("period", "winding", "centre"))})
-    # Of a second partner: before all
+    # A second partner sorts before all
     table["mirror"] = dimension, [-2 if kinds[branch][3] else len(firsts) for branch in firsts]
     wanted = None if named is None else {kinds[one] for one in named}
     apart = None if wanted is None else [row for row, branch in enumerate(firsts) if kinds[branch] in wanted]

@@ -30,7 +30,7 @@ LABELS = {
     "blackburn_upper_note": "Blackburn note 13", "blackburn_tangent": "tangent at k = 1/4",
     "blackburn_down_upper": "Blackburn Eq. 6, down",
 }
-# What a curve bounds; the numbers are Butikov's.
+# Meaning of each curve as a bound, with Butikov's numbers.
 CURVES = {1: "curve 1: inverted stands above it", 2: "curve 2: first tongue, left edge",
           3: "curve 3: first tongue, right edge",
           4: "curve 4: second tongue, left edge", 5: "curve 5: second tongue, right edge"}

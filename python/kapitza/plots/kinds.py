@@ -4,7 +4,20 @@ study."""
 
 from types import ModuleType
 
-from kapitza.plots import atlas, basin, chart, compare, escape, measure_lines, orbit, passport, potential, stability, sweep, tradeoff
+from kapitza.plots import (
+                                atlas,
+                                basin,
+                                chart,
+                                compare,
+                                escape,
+                                measure_lines,
+                                orbit,
+                                passport,
+                                potential,
+                                stability,
+                                sweep,
+                                tradeoff,
+)
 
 KINDS: dict[str, ModuleType] = {"basin": basin, "sweep": sweep, "plane": chart, "line": measure_lines, "orbit": orbit,
                                 "stability": stability, "potential": potential, "tradeoff": tradeoff, "atlas": atlas,

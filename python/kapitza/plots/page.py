@@ -99,7 +99,7 @@ def new_figure(width: float, height: float) -> Picture:
     if current().axes is not None:
         raise BadOption("ax takes one panel, and this picture has several; choose a view, a measure or a panel of it")
     figure = Picture(figsize=(width * current().scale, height * current().scale), layout="constrained")
-    FigureCanvasAgg(figure)  # which measures words
+    FigureCanvasAgg(figure)  # measures words
     return figure
 
 

@@ -16,7 +16,7 @@ from kapitza.bounded_reading import read_text
 from kapitza.plots.page import LEGENDS, NARROW, Page
 from kapitza.scene import read_yaml
 
-NAMES = (*style.KINDS, "not settled")  # of colours, and those of attractors:
+NAMES = (*style.KINDS, "not settled")  # names that may have a colour, beside those of attractors
 MOTION = re.compile(
     r"(rotation [+-]\d+/\d+|(down|inverted|wide) \d+-nodding|down|inverted|flutter|chaotic|running [+-])( \(\d+\))?")
 UNITS = {"mm": 1 / 25.4, "cm": 1 / 2.54, "in": 1.0, "pt": 1 / 72}

@@ -29,7 +29,7 @@ from kapitza.session import orbit
 
 STUDY = "attractors or measures"
 CHAOTIC_PERIODS, CHAOTIC_TRANSIENT = 200, 200  # drive periods of the record of a chaotic motion, and before it
-MOST_LINES = 13  # of a table in one column
+MOST_LINES = 13  # lines of a table in one column
 SAME = 1e-6  # rad: strobe points of one attractor in two groups differ less
 
 

@@ -22,8 +22,8 @@ from kapitza.plots.page_options import add_page_options, page_of
 from kapitza.result import BadFile, Result
 
 FORMATS = (".png", ".svg", ".pdf")
-FILES = ("help", "file", "output", "dpi")  # of the command line alone
-PAGES = ("width", "title", "no_title", "theme")  # of a page, which an axes has already
+FILES = ("help", "file", "output", "dpi")  # options of the command line alone
+PAGES = ("width", "title", "no_title", "theme")  # options of a page, which an axes has already
 
 
 def parser_of(kind: str) -> Parser:
@@ -85,7 +85,7 @@ def picture(result: Result, kind: str, ax: Axes | None = None, **options: Any) -
     try:
         return drawn(result, kind, values, ax)
     except BadOption as error:
-        raise BadOption(str(error).replace("--", "")) from None  # which only words have
+        raise BadOption(str(error).replace("--", "")) from None  # dashes stand for options of the command line
 
 
 def _value(action: argparse.Action, value: Any) -> Any:

@@ -24,7 +24,7 @@ from kapitza.scene import tree_of
 from kapitza.units import unit_text, with_unit
 
 OVER = {("attractor", "y", "x"), ("y", "x")}  # dimensions of measures: of each attractor, of the pendulum
-ADD = {"share", "weighted_share", "share_within", "integrity_global"}  # those of one name are added
+ADD = {"share", "weighted_share", "share_within", "integrity_global"}  # added over attractors of one name
 COLUMNS, MOST = 3, 6  # panels side by side, and in all unless names are given
 CURVES = 2  # longest period of the atlas' curves on top
 

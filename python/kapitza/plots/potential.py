@@ -19,7 +19,7 @@ from kapitza.result import Result
 from kapitza.units import TURN, drive_unit
 
 STUDY = "a potential"
-COLOURS = ["#6b747e", "#2f6db3", "#12806a", "#c2452f", "#5b2a7a", "#b08a1e"]  # of the drive amplitudes, in turn
+COLOURS = ["#6b747e", "#2f6db3", "#12806a", "#c2452f", "#5b2a7a", "#b08a1e"]  # colours of the drive amplitudes, in turn
 # Name, dashes, label
 FORMULAS = (("blackburn", (0, (4, 2)), "Blackburn Eq. 11"), ("simple", (0, (1, 1.5)), "leading order (Eq. 12)"))
 

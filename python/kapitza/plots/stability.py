@@ -19,14 +19,24 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from kapitza import style
-from kapitza.plots.curves import A_LABEL, Q_LABEL, axes_of, curve_names, draw_curves, exact_of, is_branch, lowest_point, whole_curve
+from kapitza.plots.curves import (
+    A_LABEL,
+    Q_LABEL,
+    axes_of,
+    curve_names,
+    draw_curves,
+    exact_of,
+    is_branch,
+    lowest_point,
+    whole_curve,
+)
 from kapitza.plots.formula_errors import error_figure
 from kapitza.plots.page import current, entitle, new_panels
 from kapitza.result import BadFile, Result
 
 STUDY = "a stability chart"
 STABLE = "#e4e9ee"
-# Of the view frequency: relative distance of neighbouring columns, and how many there must be
+# View frequency: largest relative distance of neighbouring columns, and least number of them
 WIDEST, FEWEST = 0.03, 40
 RESTS = ("white", style.KINDS["inverted"], style.KINDS["down"], "#a9c8a4")  # stable: neither, inverted, hanging, both
 

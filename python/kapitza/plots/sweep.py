@@ -20,7 +20,14 @@ from matplotlib.patches import Patch
 
 from kapitza import style
 from kapitza.flutter import flutter
-from kapitza.plots.branches import attracting_branches, branch_colours, draw_lives, draw_shares, named_branches, parameter_text
+from kapitza.plots.branches import (
+    attracting_branches,
+    branch_colours,
+    draw_lives,
+    draw_shares,
+    named_branches,
+    parameter_text,
+)
 from kapitza.plots.flutter import draw_amplitude, draw_square
 from kapitza.plots.page import current, entitle, new_panels
 from kapitza.plots.units import fixed_si
@@ -30,7 +37,7 @@ from kapitza.units import drive_unit, in_degrees
 STUDY = "a sweep"
 UP, DOWN = "#2f6db3", "#c2452f"
 STAYS = "#f2d08a"
-NARROWEST = 0.04                                        # of the circle, in parts of pi
+NARROWEST = 0.04                                        # least part of the circle, in units of pi
 PI_STEPS = [1 / 4, 1 / 8, 1 / 16, 1 / 32, 0.01]         # between ticks, in parts of pi: the last one for the narrowest
 DEGREE_STEPS = [45, 15, 5, 2]
 

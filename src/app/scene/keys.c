@@ -21,9 +21,9 @@ static const char *scheme_words(void) {
 }
 
 #define MOST_HARMONICS KZ_STRINGIFY(KZ_HARMONICS)
-#define PENDULUM(form_, name, unit_, low_, fallback, help, ...)                                                \
-  ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
-      .high = DBL_MAX, .form = form_, __VA_ARGS__)
+#define PENDULUM(form_, name, unit_, low_, fallback, help, ...)                                             \
+  KZ_ROW("pendulum." #name, KZ_KEY_REAL, fallback, KZ_ROW_AT(parameters.written.name), help, .unit = unit_, \
+         .low = low_, .high = DBL_MAX, .form = form_, __VA_ARGS__)
 
 /* Words for keys of the pendulum in books and papers. */
 #define OTHER_WORDS                                                                                               \
@@ -33,9 +33,9 @@ static const char *scheme_words(void) {
   "i=i_dc|I=i_dc|current=i_dc|bias=i_dc|bias_current=i_dc|betac=beta_c|beta_C=beta_c|stewart_mccumber=beta_c"
 
 static const kz_key own[] = {
-    TEXT("title", "", title, "One line that names the scene in files and pictures."),
+    KZ_ROW_TEXT("title", "", title, "One line that names the scene in files and pictures."),
 
-    MAPPING(
+    KZ_ROW_MAPPING(
         "pendulum", NULL,
         "The pendulum, given in one of four ways (a, b, c, d). A scene with the study `stability` alone needs none.",
         .words = OTHER_WORDS),
@@ -75,56 +75,62 @@ static const kz_key own[] = {
     PENDULUM("d", i_dc, "", -DBL_MAX, "", "Of a junction: constant current over the critical one; torque = k i_dc."),
     PENDULUM("d", i_ac, "", -DBL_MAX, "",
              "Of a junction: amplitude of the microwave current over the critical current."),
-    REAL("pendulum.tilt", "rad", -M_PI, M_PI, "", parameters.written.tilt,
-         "Angle between the pivot's path and the vertical."),
-    REAL("pendulum.ellipse", "", -10, 10, "", parameters.written.ellipse,
-         "Makes the pivot's path an ellipse: the ratio of its axis across the path to the one along it; above 0 = "
-         "clockwise."),
-    REAL("pendulum.torque", "", -1e6, 1e6, "", parameters.written.torque,
-         "Constant torque on the pendulum, in units of I omega^2."),
-    REAL("pendulum.torque_amplitude", "", -1e6, 1e6, "", parameters.written.torque_amplitude,
-         "Amplitude of a torque that oscillates with the drive, torque_amplitude cos t, in the same units."),
-    REAL("pendulum.constant_torque_ratio", "", -1e6, 1e6, "", parameters.written.constant_torque_ratio,
-         "The constant torque in units of M g r: torque = k constant_torque_ratio."),
-    ROW("pendulum.torque_ratio", KZ_KEY_REAL, "", AT(parameters.written.torque_ratio),
-        "Amplitude of the oscillating torque in units of M g r, as gamma of textbooks: torque_amplitude = k "
-        "torque_ratio.",
-        .unit = "", .low = -1e6, .high = 1e6, .symbol = "gamma"),
-    WORD("pendulum.waveform", "sine|square|triangle|samples", "", parameters.written.waveform,
-         "Form of the drive in time, which is that of the pivot's downward acceleration; square and triangle: their "
-         "Fourier "
-         "series "
-         "up to order 7; samples: of the list samples up to order 16."),
-    ROW("pendulum.samples", KZ_KEY_REALS, "", AT(parameters.written.samples),
+    KZ_ROW_REAL("pendulum.tilt", "rad", -M_PI, M_PI, "", parameters.written.tilt,
+                "Angle between the pivot's path and the vertical."),
+    KZ_ROW_REAL(
+        "pendulum.ellipse", "", -10, 10, "", parameters.written.ellipse,
+        "Makes the pivot's path an ellipse: the ratio of its axis across the path to the one along it; above 0 = "
+        "clockwise."),
+    KZ_ROW_REAL("pendulum.torque", "", -1e6, 1e6, "", parameters.written.torque,
+                "Constant torque on the pendulum, in units of I omega^2."),
+    KZ_ROW_REAL("pendulum.torque_amplitude", "", -1e6, 1e6, "", parameters.written.torque_amplitude,
+                "Amplitude of a torque that oscillates with the drive, torque_amplitude cos t, in the same units."),
+    KZ_ROW_REAL("pendulum.constant_torque_ratio", "", -1e6, 1e6, "", parameters.written.constant_torque_ratio,
+                "The constant torque in units of M g r: torque = k constant_torque_ratio."),
+    KZ_ROW("pendulum.torque_ratio", KZ_KEY_REAL, "", KZ_ROW_AT(parameters.written.torque_ratio),
+           "Amplitude of the oscillating torque in units of M g r, as gamma of textbooks: torque_amplitude = k "
+           "torque_ratio.",
+           .unit = "", .low = -1e6, .high = 1e6, .symbol = "gamma"),
+    KZ_ROW_WORD(
+        "pendulum.waveform", "sine|square|triangle|samples", "", parameters.written.waveform,
+        "Form of the drive in time, which is that of the pivot's downward acceleration; square and triangle: their "
+        "Fourier "
+        "series "
+        "up to order 7; samples: of the list samples up to order 16."),
+    KZ_ROW(
+        "pendulum.samples", KZ_KEY_REALS, "", KZ_ROW_AT(parameters.written.samples),
         "The drive at equal times of a period, the first at t = 0, in units of drive_amplitude; its mean is left out.",
         .unit = "", .low = -1e6, .high = 1e6),
-    ROW("pendulum.harmonics", KZ_KEY_HARMONICS, "", AT(parameters.written.harmonics),
-        "Further harmonics of the drive: m amplitude cos(order t + phase), the phase in rad or degrees.", .unit = ""),
-    ROW("pendulum.vertical", KZ_KEY_REALS, "", AT(parameters.written.vertical),
-        "Coefficients of the equation, beside k - m cos t: cosine and sine of the first harmonic, of the second, "
-        ".., " MOST_HARMONICS
-        " at most, as the group pendulum of a result holds them. Instead of waveform, harmonics, tilt and ellipse.",
-        .unit = "", .low = -1e7, .high = 1e7),
-    ROW("pendulum.horizontal", KZ_KEY_REALS, "", AT(parameters.written.horizontal),
-        "The same of a pivot that moves aside: b(t) of the equation.", .unit = "", .low = -1e7, .high = 1e7),
+    KZ_ROW("pendulum.harmonics", KZ_KEY_HARMONICS, "", KZ_ROW_AT(parameters.written.harmonics),
+           "Further harmonics of the drive: m amplitude cos(order t + phase), the phase in rad or degrees.",
+           .unit = ""),
+    KZ_ROW("pendulum.vertical", KZ_KEY_REALS, "", KZ_ROW_AT(parameters.written.vertical),
+           "Coefficients of the equation, beside k - m cos t: cosine and sine of the first harmonic, of the second, "
+           ".., " MOST_HARMONICS
+           " at most, as the group pendulum of a result holds them. Instead of waveform, harmonics, tilt and ellipse.",
+           .unit = "", .low = -1e7, .high = 1e7),
+    KZ_ROW("pendulum.horizontal", KZ_KEY_REALS, "", KZ_ROW_AT(parameters.written.horizontal),
+           "The same of a pivot that moves aside: b(t) of the equation.", .unit = "", .low = -1e7, .high = 1e7),
 
-    ROW("numerics", KZ_KEY_MAPPING, "", NOWHERE, "How one drive period is integrated.", .unit = "",
-        .former = "precision=basin.method exact"),
-    ROW("numerics.scheme", KZ_KEY_WORD, "processed", AT(asked.scheme),
-        "Integrator. processed: one kick a step, the fastest; the program takes split6 if it does not reach the "
-        "tolerance; "
-        "split schemes are exact in the damping; rk4: classical Runge-Kutta.",
-        .unit = "", .words_from = scheme_words, .former = "split4=split6|split6-11=split6", CHOSEN),
-    COUNT("numerics.steps_per_period", 1, 100000, "auto", asked.steps_per_period,
-          "Steps in a drive period. auto: as many as tolerance and speeds need (processed); the default of the scheme, "
-          "or more "
-          "for small cells (others).",
-          .words = "auto", CHOSEN),
-    ROW("numerics.tolerance", KZ_KEY_REAL, "1e-12", AT(asked.tolerance),
+    KZ_ROW("numerics", KZ_KEY_MAPPING, "", KZ_ROW_NOWHERE, "How one drive period is integrated.", .unit = "",
+           .former = "precision=basin.method exact"),
+    KZ_ROW("numerics.scheme", KZ_KEY_WORD, "processed", KZ_ROW_AT(asked.scheme),
+           "Integrator. processed: one kick a step, the fastest; the program takes split6 if it does not reach the "
+           "tolerance; "
+           "split schemes are exact in the damping; rk4: classical Runge-Kutta.",
+           .unit = "", .words_from = scheme_words, .former = "split4=split6|split6-11=split6", KZ_ROW_CHOSEN),
+    KZ_ROW_COUNT(
+        "numerics.steps_per_period", 1, 100000, "auto", asked.steps_per_period,
+        "Steps in a drive period. auto: as many as tolerance and speeds need (processed); the default of the scheme, "
+        "or more "
+        "for small cells (others).",
+        .words = "auto", KZ_ROW_CHOSEN),
+    KZ_ROW(
+        "numerics.tolerance", KZ_KEY_REAL, "1e-12", KZ_ROW_AT(asked.tolerance),
         "Error of one drive period that auto allows the scheme processed, measured against quad precision; small cells "
         "allow "
         "less, and method exact a tenth of it where rounding lets it.",
-        .unit = "rad", .low = 1e-15, .high = 0.01, CHOSEN),
+        .unit = "rad", .low = 1e-15, .high = 0.01, KZ_ROW_CHOSEN),
     {.path = NULL},
 };
 

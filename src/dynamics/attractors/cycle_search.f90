@@ -26,7 +26,7 @@ module kz_attractors_cycle_search
     class(flow_t), allocatable :: sampling_flow !< map with separate steps, for samples within a period
   end type search_t
 
-  !> Newton is tried for so many recurrences of a state, the closest first,
+  !> Largest number of recurrences of a state tried by Newton's method, the closest first.
   integer, parameter :: MOST_TRIES = 4
   !> Largest number of states tried for one period, where a bifurcation blurs the cycle.
   integer, parameter :: BLURRED_TRIES = 4
@@ -48,7 +48,7 @@ contains
     real(dp), intent(in) :: u(:), v(:) !< states to look from, half-turns, rad per drive radian
     real(dp), intent(in) :: closeness !< how near an orbit must come back to itself, rad
     integer, intent(inout) :: next !< in and out: the state to go on from; size(u) + 1 where all have been looked at
-    !> in and out: how often the cycle of each period up to max_period was found blurred; 0 at first
+    !> In and out: how often the cycle of each period up to max_period was found blurred; 0 at first
     integer, intent(inout) :: n_blurred(:)
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains what is found
     real(dp), allocatable :: orbit_u(:, :), orbit_v(:, :)

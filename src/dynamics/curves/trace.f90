@@ -68,7 +68,7 @@ contains
         return
       end if
       ending = MERGED
-      ! beside its parent the equations of a fold have that parent's own curve as a solution too
+      ! Beside its parent the equations of a fold have that parent's own curve as a solution too
       if (kind%multiplier > 0) then
         if (meets(was, is, int(kind%points)) > 0) return
         if (on_parents_curve(walker%system, walker%y, was, is)) return
@@ -76,7 +76,7 @@ contains
       if ((former > 0) .neqv. (form > 0)) then
         turning = walker
         call locate_special(turning, before, heading, former, form, special, n_special, found)
-        ! a row of its own: what branches off attracts on one side of it alone
+        ! A row of its own: what branches off attracts on one side of it alone
         if (found .and. kind%multiplier < 0 .and. n_rows + 1 < most) call put_turning()
       end if
       was = is

@@ -66,7 +66,7 @@ contains
         angle = acos(min(1.0_dp, max(-1.0_dp, inner(walker%system, walker%tangent(:unknown), tangent(:unknown)))))
         found = angle < BENT
       end if
-      ! two multipliers of 1 or -1 within one step would not be seen
+      ! Two multipliers of 1 or -1 within one step would not be seen
       if (found .and. .not. walker%system%on_curve) found = abs(asinh(walker%system%trace) - asinh(trace)) < CHANGED
       if (found) exit
       walker%step = 0.5_dp*walker%step

@@ -17,7 +17,7 @@ module kz_labels_period_error
   !> of one whose true images take seconds.
   integer, parameter :: EACH = 32, EACH_COSTLY = 4
   real(dp), parameter :: MARGIN = 1.5_dp, MARGIN_COSTLY = 3
-  !> rad per drive radian: motions that change so fast are costly.
+  !> Change of velocity, rad per drive radian, from which motions are costly.
   real(dp), parameter :: COSTLY = 60
 
   !> States up to a speed and their images.

@@ -21,7 +21,7 @@ module kz_maps_map_table
     integer :: n_own = 0      !< nodes from 0 to pi: 0 .. n_own
     integer :: n_velocity = 0 !< nodes of the velocity
     real(dp) :: top = 0       !< largest velocity; the smallest is -top
-    !> shift in a period (half-turns at mid-period, rad per radian), (2, -GHOSTS : n_theta + GHOSTS, n_velocity)
+    !> Shift in a period (half-turns at mid-period, rad per radian), (2, -GHOSTS : n_theta + GHOSTS, n_velocity)
     real(dp), allocatable :: shift(:, :, :)
   end type table_t
 

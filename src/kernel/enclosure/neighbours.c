@@ -99,7 +99,8 @@ KZ_INLINE void move_matrix(const kz_speed_class *speed, int32_t first, int P, co
 }
 
 /* Bounds (theta, velocity) of neighbours, |A z| <= M, less their linear map; torque: bound of nonlinear terms. */
-KZ_INLINE void nonlinear(const kz_speed_class *speed, bool jacobian, const vector M[2], vector torque, vector p[2]) {
+KZ_INLINE void nonlinear_part(const kz_speed_class *speed, bool jacobian, const vector M[2], vector torque,
+                              vector p[2]) {
   const double (*e)[2] = speed->tangent_error[jacobian];
   for (int i = 0; i < 2; i++) p[i] = (speed->nonlinear[i] * torque + e[i][0] * M[0] + e[i][1] * M[1]) * KZ_ROUND_UP;
 }
@@ -110,12 +111,12 @@ void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const kz_circ
   vector M[2], p[2], p_column[2][2], gain[2];
   linear_images(x, x->reach[0], x->reach[1], M);
   const vector d = speed->neighbour_angle[0] * M[0] + speed->neighbour_angle[1] * M[1];
-  nonlinear(speed, jacobian, M, max_torque * (d * d) * (0.5 * max_sine + d * (1.0 / 6)), p);
+  nonlinear_part(speed, jacobian, M, max_torque * (d * d) * (0.5 * max_sine + d * (1.0 / 6)), p);
   for (int i = 0; i < 2; i++) p[i] = (p[i] + local[i]) * KZ_ROUND_UP;
   for (int j = 0; jacobian && j < 2; j++) {
     linear_images(x, (j == 0) + x->jacobian_error[0][j], (j == 1) + x->jacobian_error[1][j], M);
     const vector along = speed->neighbour_angle[0] * M[0] + speed->neighbour_angle[1] * M[1];
-    nonlinear(speed, jacobian, M, max_torque * (d * along) * (max_sine + 0.5 * d), p_column[j]);
+    nonlinear_part(speed, jacobian, M, max_torque * (d * along) * (max_sine + 0.5 * d), p_column[j]);
   }
   if (jacobian)
     move_matrix(speed, step * speed->order, KZ_ORDER_JACOBIAN, circle, x);

@@ -2,7 +2,7 @@
   !>
   !> A split scheme alternates an exact damped drift with a kick, drifts first and last. Its row gives one half of two
   !> palindromes (drifts, kicks);
-!> the middle entries follow from consistency: the drifts of a step sum to 1, and so do the kicks.
+!> The middle entries follow from consistency: the drifts of a step sum to 1, and so do the kicks.
 module kz_vector_schemes
   use, intrinsic :: iso_fortran_env, only: real128
   implicit none

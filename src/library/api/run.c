@@ -69,7 +69,7 @@ kz_status kz_library_store_work(kz_status (*work)(void *context), void *context,
 struct kz_library_atlas {
   char *path;
   struct timespec changed;
-  kz_scene scene; /* of the file */
+  kz_scene scene; /* scene of the file */
   kz_atlas *atlas;
   kz_store *store; /* while it is read */
 };

@@ -5,9 +5,9 @@
 #include "plan.h"
 
 static const kz_key keys[] = {
-    STUDY("Study: time and wrong labels of many settings on the basin's window, compared with quad precision."),
-    INTEGER("tradeoff.samples", 10, 1e6, "4000", samples, "Random cells that are compared."),
-    WORDS("tradeoff.settings", kz_tradeoff_words, "", settings, "Settings that are compared; left out: all."),
+    KZ_ROW_STUDY("Study: time and wrong labels of many settings on the basin's window, compared with quad precision."),
+    KZ_ROW_INTEGER("tradeoff.samples", 10, 1e6, "4000", samples, "Random cells that are compared."),
+    KZ_ROW_WORDS("tradeoff.settings", kz_tradeoff_words, "", settings, "Settings that are compared; left out: all."),
     {.path = NULL},
 };
 

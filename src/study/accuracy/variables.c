@@ -1,5 +1,5 @@
 /* Variables of the group tradeoff of the result file. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "accuracy.h"
 #include "kapitza/study_basin.h"
 

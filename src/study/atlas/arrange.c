@@ -113,7 +113,7 @@ static void arrange_cross(kz_atlas *atlas, int64_t number, int64_t row, int axis
     const double s = root[i], form = a[KZ_ROW_FORM] + s * (b[KZ_ROW_FORM] - a[KZ_ROW_FORM]);
     const double *by = side_of(&curve->kind, a, b, form);
     const double end = by == a ? 0 : 1;
-    /* the normal turned from the tangent, with the sign that it has where the side is known */
+    /* The normal turned from the tangent, with the sign that it has where the side is known */
     const double known =
         -arrange_slope(c.p[1], end) * by[KZ_ROW_SIDE] + arrange_slope(c.p[0], end) * by[KZ_ROW_SIDE + 1];
     const double normal[2] = {-arrange_slope(c.p[1], s), arrange_slope(c.p[0], s)};

@@ -161,7 +161,7 @@ bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_cycle_kind *kind, do
     for (int side = 1; side >= -1 && n % shift == 0; side -= 2) {
       kz_curve_kind of = {side, shift, kind->of.multiplier, kind->of.turns * shift / n, 0};
       double point[KZ_ATLAS_UNKNOWNS];
-      /* half of a cycle is mirrored, or each odd part of one that is symmetric */
+      /* Half of a cycle is mirrored, or each odd part of one that is symmetric */
       const bool mirrored = kind->of.side < 0 ? n / shift % 2 == 1 : kind->of.turns == 0 && 2 * shift == n;
       if (side < 0 ? !atlas->plane.mirrored || !mirrored : kind->of.side < 0) continue;
       if (!cycles_repeats(kind, y, shift, side, near)) continue;

@@ -88,11 +88,11 @@ struct kz_atlas {
   kz_atlas_seeds pending;
   int32_t n_classes;
   kz_atlas_class class[KZ_ATLAS_MOST_CLASSES];
-  double reference[2];                         /* without an undriven edge: a place, */
-  int32_t at_reference[KZ_ATLAS_MOST_CLASSES]; /* classes at the reference */
+  double reference[2];                         /* reference place of a plane without an undriven edge */
+  int32_t at_reference[KZ_ATLAS_MOST_CLASSES]; /* attractors of each class there */
   int64_t refused[KZ_ATLAS_REFUSALS];          /* seeds that lead to no curve */
   int64_t places, cycles;                      /* census: random places, and cycles followed from there */
-  kz_atlas_seeds sightings;                    /* the first curves that these met, */
+  kz_atlas_seeds sightings;                    /* first curves met by these cycles */
   int64_t *sighting_place, sighting_capacity;  /* place of each sighting */
   int64_t rounds, checked, disagreed;          /* random places; the last two: of the last round */
   int64_t dropped;                             /* cycles and points of curves that records had no room for */

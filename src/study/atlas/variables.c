@@ -1,5 +1,5 @@
 /* Variables of the group atlas of the result file. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "types.h"
 
 #define OF_CURVE {"curve"}

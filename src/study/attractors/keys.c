@@ -5,13 +5,13 @@
 #include "plan.h"
 
 static const kz_key keys[] = {
-    STUDY("Study: the attractors of a window of starts, without a grid."),
-    THETA_WINDOW(attractors, "Angles of the starts; left out: the whole circle [-pi, pi)."),
-    VELOCITY_WINDOW(attractors, KZ_MOST_SPEED, NULL, NULL, NULL, "Velocities of the starts."),
-    INTEGER("attractors.starts", 1, 1e8, "8192", starts, "Starts of the search."),
-    INTEGER("attractors.max_period", 1, 512, "48", max_period, "Longest period of the search."),
-    INTEGER("attractors.seed", 0, 9007199254740992.0, "1", seed,
-            "Number that chooses the starts; another seed gives other starts."),
+    KZ_ROW_STUDY("Study: the attractors of a window of starts, without a grid."),
+    KZ_ROW_THETA_WINDOW(attractors, "Angles of the starts; left out: the whole circle [-pi, pi)."),
+    KZ_ROW_VELOCITY_WINDOW(attractors, KZ_MOST_SPEED, NULL, NULL, NULL, "Velocities of the starts."),
+    KZ_ROW_INTEGER("attractors.starts", 1, 1e8, "8192", starts, "Starts of the search."),
+    KZ_ROW_INTEGER("attractors.max_period", 1, 512, "48", max_period, "Longest period of the search."),
+    KZ_ROW_INTEGER("attractors.seed", 0, 9007199254740992.0, "1", seed,
+                   "Number that chooses the starts; another seed gives other starts."),
     {.path = NULL},
 };
 

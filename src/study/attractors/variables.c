@@ -1,5 +1,5 @@
 /* Variables of the group attractors of the result file. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "labelling/catalogue.h"
 
 /* clang-format off */

@@ -1,5 +1,5 @@
 /* Variables of the group basin of the result file. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "basin.h"
 
 #define EVIDENCE                                                                                                      \

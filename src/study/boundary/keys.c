@@ -5,17 +5,19 @@
 #include "kapitza/study_key_rows.h"
 
 static const kz_key keys[] = {
-    ROW("basin.boundary", KZ_KEY_MAPPING, "", OF_SCENE(has_boundary),
+    KZ_ROW(
+        "basin.boundary", KZ_KEY_MAPPING, "", KZ_ROW_OF_SCENE(has_boundary),
         "How fractal the boundaries are: uncertainty exponents decade by decade, box-counting dimension, basins that "
         "share "
         "their boundary.",
         .unit = ""),
-    INTEGER("basin.boundary.pairs", 100, 1e8, "50000", pairs,
-            "Starts of the window, each with a partner at `farthest`, a tenth of that, ... rad."),
-    REAL("basin.boundary.farthest", "rad", 1e-300, 1, "0.01", farthest,
-         "Distance of the first partner. With method exact it may be any share of the width of a deep window."),
-    INTEGER("basin.boundary.decades", KZ_BOUNDARY_FEWEST_DECADES, KZ_BOUNDARY_MOST_DECADES, "10", decades,
-            "Decades of these distances: 10 go from 0.01 down to 1e-12 rad; nearer partners need basin.method exact."),
+    KZ_ROW_INTEGER("basin.boundary.pairs", 100, 1e8, "50000", pairs,
+                   "Starts of the window, each with a partner at `farthest`, a tenth of that, ... rad."),
+    KZ_ROW_REAL("basin.boundary.farthest", "rad", 1e-300, 1, "0.01", farthest,
+                "Distance of the first partner. With method exact it may be any share of the width of a deep window."),
+    KZ_ROW_INTEGER(
+        "basin.boundary.decades", KZ_BOUNDARY_FEWEST_DECADES, KZ_BOUNDARY_MOST_DECADES, "10", decades,
+        "Decades of these distances: 10 go from 0.01 down to 1e-12 rad; nearer partners need basin.method exact."),
     {.path = NULL},
 };
 

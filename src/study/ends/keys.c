@@ -11,19 +11,21 @@ static const char *keys_words(void) {
 }
 
 static const kz_key keys[] = {
-    ROW("sweep.measure", KZ_KEY_WORDS, NULL, NOWHERE, "Over a plane: ends of the starts of sweep.ends.", .unit = "",
-        .words_from = keys_words),
-    MAPPING("sweep.ends", "", "The measure ends: where the same starts end, at t = 0; each has a picture of its own."),
-    ROW("sweep.ends.theta", KZ_KEY_REALS, NULL, AT(theta), "Angles from down.", .unit = "rad", .low = -1e6,
-        .high = 1e6),
-    ROW("sweep.ends.velocity", KZ_KEY_REALS, "[0]", AT(velocity), "Velocities: one for each angle, or one for all.",
-        .unit = KZ_VELOCITY_UNIT, .low = -1e3, .high = 1e3),
-    INTEGER("sweep.ends.max_period", 1, KZ_ENDS_MOST_PERIOD, "16", max_period,
-            "Longest period of a cycle that is recognised."),
-    INTEGER("sweep.ends.max_periods", 1, 1e8, "", max_periods,
-            "Drive periods after which a motion counts as not settled; left out: the number that the damping needs, at "
-            "least "
-            "2000."),
+    KZ_ROW("sweep.measure", KZ_KEY_WORDS, NULL, KZ_ROW_NOWHERE, "Over a plane: ends of the starts of sweep.ends.",
+           .unit = "", .words_from = keys_words),
+    KZ_ROW_MAPPING("sweep.ends", "",
+                   "The measure ends: where the same starts end, at t = 0; each has a picture of its own."),
+    KZ_ROW("sweep.ends.theta", KZ_KEY_REALS, NULL, KZ_ROW_AT(theta), "Angles from down.", .unit = "rad", .low = -1e6,
+           .high = 1e6),
+    KZ_ROW("sweep.ends.velocity", KZ_KEY_REALS, "[0]", KZ_ROW_AT(velocity),
+           "Velocities: one for each angle, or one for all.", .unit = KZ_VELOCITY_UNIT, .low = -1e3, .high = 1e3),
+    KZ_ROW_INTEGER("sweep.ends.max_period", 1, KZ_ENDS_MOST_PERIOD, "16", max_period,
+                   "Longest period of a cycle that is recognised."),
+    KZ_ROW_INTEGER(
+        "sweep.ends.max_periods", 1, 1e8, "", max_periods,
+        "Drive periods after which a motion counts as not settled; left out: the number that the damping needs, at "
+        "least "
+        "2000."),
     {.path = NULL},
 };
 

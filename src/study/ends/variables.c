@@ -1,5 +1,5 @@
 /* Variables of the group plane of the result file that the measure ends writes. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "kapitza/study.h"
 
 #define ENDS {"start", "y", "x"}

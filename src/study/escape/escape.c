@@ -94,7 +94,7 @@ static kz_escape_task *list_tasks(const kz_escape_plan *plan, bool mirrored, con
       bool is_sought = is_gate;
       for (int32_t b = 0; plan->everywhere && b < (int32_t)attractors->count; b++)
         is_sought = is_sought || kz_gate_is_of(gate + s, b, alone);
-      /* far paths are sought once and reflected; those through gates set lives and are compared with their images */
+      /* Far paths are sought once and reflected; those through gates set lives and are compared with their images */
       const int64_t image_a = (int64_t)attractors->mirror[a], image_s = (int64_t)saddles->mirror[s];
       const bool reflected = !is_gate && mirrored && (image_a != a ? image_a < a : image_s < s) &&
                              kz_escape_is_left(plan, attractors, image_a);

@@ -1,5 +1,5 @@
 /* Variables of the group escape of the result file. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "kapitza/study.h"
 
 #define ACTION "1|units of I omega^2"

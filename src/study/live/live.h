@@ -47,7 +47,7 @@ typedef struct {
   kz_dynamics *dynamics;
   kz_search search;
   kz_images *images;   /* images of the last window that needed them; NULL = none */
-  kz_pendulum chosen;  /* the pendulum for which the numerics were chosen, */
+  kz_pendulum chosen;  /* pendulum of the numerics */
   kz_pendulum grown;   /* pendulum of the trapping regions */
   int age;             /* number of pendulums since the trapping regions were grown */
   int64_t ended, left; /* cells of moving frames since the last search: all, and those that have not settled */

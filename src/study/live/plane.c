@@ -9,7 +9,7 @@ typedef struct {
   void *context;
   int64_t rows, columns, *pending;
   bool *listed;                         /* [rows][columns] points that a raster has followed, or is about to */
-  uint8_t *period, *centre;             /* [rows][columns] of all points, */
+  uint8_t *period, *centre;             /* [rows][columns] ends of all points */
   uint8_t *shown_period, *shown_centre; /* planes of a raster */
 } drawing;
 

@@ -14,7 +14,8 @@ static const char *swept_words(void) {
 }
 
 static const kz_key keys[] = {
-    ROW("sweep.measure", KZ_KEY_WORDS, NULL, NOWHERE,
+    KZ_ROW(
+        "sweep.measure", KZ_KEY_WORDS, NULL, KZ_ROW_NOWHERE,
         "Along one key also resilience: smallest shocks that leave the basins. Along one and over a plane: the words "
         "of "
         "measures.names.",

@@ -1,5 +1,5 @@
 /* Variables of the groups plane, line and sweep of the result file that measures of a sweep write. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "kapitza/study.h"
 #include "table.h"
 

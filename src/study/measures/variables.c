@@ -1,5 +1,5 @@
 /* Variables of the group measures of the result file. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "measures.h"
 
 #define NUMBER(word, needs, unit, name) {#word, KZ_REAL, {"attractor"}, unit, name},

@@ -1,5 +1,5 @@
 /* Variables of the group orbit of the result file. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "orbit.h"
 
 #define TIME "rad|drive radians"

@@ -1,5 +1,5 @@
 /* Variables of the group potential of the result file. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "kapitza/study.h"
 
 #define BY_DRIVE {"drive_amplitude", "theta"}

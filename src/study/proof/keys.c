@@ -6,11 +6,11 @@
 #include "proof.h"
 
 static const kz_key keys[] = {
-    ROW("basin.proof", KZ_KEY_BOOLEAN, "false", OF_SCENE(has_proof),
-        "Prove the labels under the differential equation itself; `evidence` marks those that are proved. Some ten "
-        "times the "
-        "time of the cells.",
-        .unit = ""),
+    KZ_ROW("basin.proof", KZ_KEY_BOOLEAN, "false", KZ_ROW_OF_SCENE(has_proof),
+           "Prove the labels under the differential equation itself; `evidence` marks those that are proved. Some ten "
+           "times the "
+           "time of the cells.",
+           .unit = ""),
     {.path = NULL},
 };
 

@@ -1,5 +1,5 @@
 /* Variables that proofs add to the group attractors of the result file. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "proof.h"
 
 /* clang-format off */

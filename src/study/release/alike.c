@@ -16,10 +16,11 @@ static const char *alike_words(void) {
 }
 
 static const kz_key keys[] = {
-    ROW("sweep.measure", KZ_KEY_WORDS, NULL, NOWHERE,
-        "Along one key also phases: share of cells or starts that ends alike at all phases of release.", .unit = "",
-        .words_from = alike_words),
-    INTEGER("sweep.phases", 2, 64, "8", phases, "Phases of release for the measure phases, evenly over a period."),
+    KZ_ROW("sweep.measure", KZ_KEY_WORDS, NULL, KZ_ROW_NOWHERE,
+           "Along one key also phases: share of cells or starts that ends alike at all phases of release.", .unit = "",
+           .words_from = alike_words),
+    KZ_ROW_INTEGER("sweep.phases", 2, 64, "8", phases,
+                   "Phases of release for the measure phases, evenly over a period."),
     {.path = NULL},
 };
 

@@ -1,5 +1,5 @@
 /* Variables of the groups phases and sweep of the result file that measures of releases write. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "kapitza/study.h"
 
 /* clang-format off */

@@ -1,5 +1,5 @@
 /* Variables of the group shocks of the result file. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "kapitza/study.h"
 
 /* clang-format off */

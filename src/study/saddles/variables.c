@@ -1,5 +1,5 @@
 /* Variables of the group saddles of the result file. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "saddles.h"
 
 /* clang-format off */

@@ -1,5 +1,5 @@
 /* Variables of the group stability of the result file. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "stability.h"
 
 #define EDGE(name, long_name) {name, KZ_REAL, {"m"}, NONE, long_name, {0}}

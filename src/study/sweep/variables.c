@@ -1,5 +1,5 @@
 /* Variables of the groups sweep and plane of the result file. */
-#include "kapitza/store_variables.h"
+#include "variable_words.h"
 #include "sweep.h"
 
 #define OWN "@parameter_units" /* units of the swept key */

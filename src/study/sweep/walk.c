@@ -186,8 +186,8 @@ typedef struct {
   const kz_plane_cycle *c; /* near its begin */
   kz_sweep_piece piece;    /* piece that has begun */
   bool sign[2];            /* whether 1 - trace + determinant and 1 + trace + determinant are positive */
-  bool passes;             /* it ends beyond the second value, which it still reaches, */
-  kz_branch_row beyond;    /* at this cycle */
+  bool passes;             /* it reaches the second value and ends beyond it */
+  kz_branch_row beyond;    /* cycle at the end beyond */
 } branching;
 
 static void add_piece(const branching *b) {

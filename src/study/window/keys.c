@@ -22,14 +22,16 @@
    .form = "b"}
 
 static const kz_key keys[] = {
-    OF_BASIN("basin.theta.centre", "rad", -1e6, 1e6, theta.centre, CENTRE_HELP),
+    OF_BASIN("basin.theta.centre", "rad", -1e6, 1e6, theta.centre, KZ_ROW_CENTRE_HELP),
     OF_BASIN("basin.theta.width", "rad", 1e-300, 7, theta.width, "Width of the window."),
-    OF_BASIN("basin.velocity.centre", KZ_VELOCITY_UNIT, -KZ_MOST_SPEED, KZ_MOST_SPEED, velocity.centre, CENTRE_HELP),
+    OF_BASIN("basin.velocity.centre", KZ_VELOCITY_UNIT, -KZ_MOST_SPEED, KZ_MOST_SPEED, velocity.centre,
+             KZ_ROW_CENTRE_HELP),
     OF_BASIN("basin.velocity.width", KZ_VELOCITY_UNIT, 1e-300, 2e9, velocity.width, "Width of the window."),
-    WORD("basin.undecided", "flag|decide", "flag", undecided,
-         "Cells that quad precision does not decide, by method exact. flag: flagged with two candidates; decide: "
-         "followed in "
-         "as many digits as needed, some 0.1 to 0.4 s a cell."),
+    KZ_ROW_WORD(
+        "basin.undecided", "flag|decide", "flag", undecided,
+        "Cells that quad precision does not decide, by method exact. flag: flagged with two candidates; decide: "
+        "followed in "
+        "as many digits as needed, some 0.1 to 0.4 s a cell."),
     {.path = NULL},
 };
 

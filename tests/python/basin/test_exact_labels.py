@@ -17,7 +17,7 @@ basin:
   attractors: {starts: 512}
   turns: true
 """
-# What of its numerics alone gets wrong.
+# Numerics that get labels wrong.
 COARSE = ("--set", "numerics={scheme: rk4, steps_per_period: 60}")
 UNSETTLED, UNDECIDED, IN_QUAD, IN_FINE, IN_ARBITRARY, AVERAGED = 0, 3, 4, 7, 8, 12
 

@@ -256,7 +256,7 @@ def test_a_start_is_told_in_few_digits_and_plain_words(page):
     assert "double" not in words and "decided: no rounding error can change this end" in words
     assert max(len(digits) for digits in re.findall(r"\.(\d+)", words)) <= 4, words
     deep = page.module("units.js", "new its.Units('pi', null).start({theta: '3.' + '1'.repeat(60), velocity: '1e-9'})")
-    assert deep == ["3." + "1" * 39, "0"]  # of a window 1e-35 wide
+    assert deep == ["3." + "1" * 39, "0"]  # a window 1e-35 wide
 
 
 def test_no_program_stays_for_a_closed_page(page, striped):

@@ -12,7 +12,7 @@ from PIL import Image
 
 pytest_plugins = ("explorer_page",)
 
-# What hands can take hold of and see, groups as one: radio buttons, the bar of a window, tabs, the list, a slider with
+# Parts that hands can take hold of, groups as one: radio buttons, the bar of a window, tabs, the list, a slider with
 # its field.
 CONTROLS = """[...new Set([...document.querySelectorAll("button, select, input, summary")]
     .filter((part) => part.offsetParent && part.checkVisibility({visibilityProperty: true})
@@ -60,7 +60,7 @@ def test_each_level_has_few_controls_and_letters_that_are_read(first):
         const fillText = function () { sizes.push(parseFloat(this.font)); };
         const context = {fillText, save: nothing, restore: nothing, translate: nothing};
         new its.CanvasSurface(context).text("a", 0, 0, "left"); return sizes; })()"""
-    assert first.module("surface.js", sizes) == [14]  # of canvases
+    assert first.module("surface.js", sizes) == [14]  # size of letters on canvases
 
 
 def test_a_first_look_is_in_words_of_a_school_book(first):

@@ -45,7 +45,7 @@ def test_the_point_of_the_map_is_the_pendulum(page):
         "['#map .over', '.pane .over'].map((name) => document.querySelector(name).getBoundingClientRect().bottom)")
     assert ends[0] == ends[1]  # map and basins stand on one line
     refused = [entry["message"] for entry in page.driver.get_log("browser") if entry["level"] == "SEVERE"]
-    # Which the module's own look at the log would find, if this test is its last
+    # The module's own look at the log would find these, if this test is its last
     assert all("/atlas " in message for message in refused)
     page.press("map-shown")
     assert page.run("$('map').hidden")

@@ -248,7 +248,7 @@ def test_a_refusal_keeps_the_last_picture_blurred_and_the_view_lives_on(page, we
     page.choose("value-m", "8")
     assert (page.wait(state="error") == "pendulum.m: must not be 8"
             == page.run("document.querySelector('.refusal').textContent"))
-    # Which is not said of what is not computed
+    # Nothing is said of pictures that are not computed
     assert page.pixels() == before and page.run(BLURRED) and page.shares() == []
     page.choose("value-m", "9")
     assert page.wait(state="error") == "out of memory"
@@ -289,7 +289,7 @@ def test_sliders_stand_above_the_fold_and_nothing_jumps(page):
         _ = page.slide("m", place), page.wait()
         assert (page.run(places), page.run(names)) == before
     assert page.fits(840, 520) and page.fits(390, 800)
-    # What says nothing is not sent
+    # Values that say nothing are not sent
     for tilt, form, sent in (("0.2", "square", {"tilt": 0.2, "waveform": "square"}), ("0", "sine", {})):
         _ = page.choose("value-tilt", tilt), page.choose("value-waveform", form)
         assert ({"k": 0.1, "damping": 0.05}

@@ -128,7 +128,7 @@ def test_a_zoom_into_one_colour_goes_on_to_the_nearest_boundary(page):
     base = "explorer.state.change({window: explorer.state.home.zoomed(0.05, 0.6, 0.5), jump: true})"
     page.run(base)
     page.wait()
-    middle, wide = page.run(stripe), 0.05 * TURN  # of the widest stripe
+    middle, wide = page.run(stripe), 0.05 * TURN  # middle and width of the widest stripe
     start = page.window()["theta"]["min"] + middle * wide
 
     def zoomed(factor):
@@ -196,7 +196,7 @@ def test_the_track_of_a_slider_says_what_a_start_does_along_it(page):
         done([stretches.map(({words, from, to}) => [words, from, to]), words,
           range.style.getPropertyValue("--track")]); })"""
     stretches, words, track = page.driver.execute_async_script(script)
-    # Of 20 cells each, two thirds of which fall
+    # Stretches of 20 cells each, two thirds of which fall
     assert len(stretches) == 14 and {one[0] for one in stretches} == {"stands", "falls"}
     assert stretches[0][1] == 0 and stretches[-1][2] == 1
     assert all(one[2] == two[1] for one, two in zip(stretches, stretches[1:], strict=False))

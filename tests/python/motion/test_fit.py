@@ -50,7 +50,7 @@ def test_a_decay_gives_frequency_and_damping(seconds, samples, chance):
 def test_the_truth_lies_within_the_stated_errors(pendulum, tracks):
     """Of 95 % intervals 95 of 100 hold the truth, up to the chance of so many tracks: one number in 5000 lies outside
     of these bounds."""
-    from scipy.stats import binom  # which takes a second to load
+    from scipy.stats import binom  # loaded here: it takes a second
 
     low, high = binom.ppf([1e-4, 1 - 1e-4], tracks, 0.95)
     for name, held in counted(pendulum, tracks).items():

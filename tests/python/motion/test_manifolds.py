@@ -16,8 +16,8 @@ from kapitza.plots import measure_lines
 FIG12 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 SPACING = 0.02
 TOOL = ROOT / "benchmarks" / "tangency_scipy.py"
-SCIPY = 0.058589688430988      # of that tool, for k = 1, beta = 0.02
-COMPILED = 0.0585896884310148  # of the study in C of 0.4.0; its error was 4e-15
+SCIPY = 0.058589688430988      # value of that tool for k = 1, beta = 0.02
+COMPILED = 0.0585896884310148  # value of the study in C of 0.4.0; its error was 4e-15
 
 
 @pytest.fixture(scope="module")

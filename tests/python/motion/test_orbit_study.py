@@ -91,7 +91,7 @@ def test_lines_of_chaos_are_those_of_the_velocity(model):
     # As in 0.2.0
     assert [0.5 * cos(orbit["time"].values[i]) for i in range(samples)] == list(orbit["pivot"].values[:samples])
     velocity = orbit["velocity"].values[:-1]
-    from scipy import signal  # which takes a second to load
+    from scipy import signal  # loaded here: it takes a second
 
     window = signal.get_window("blackmanharris", len(velocity))
     mean = np.average(velocity, weights=window)

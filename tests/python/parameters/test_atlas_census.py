@@ -109,4 +109,4 @@ def test_families_that_hardly_attract_are_found(kapitza, tmp_path, name):
     assert sorted(map(abs, motion["multipliers"])) == pytest.approx(sorted(moduli), abs=1e-5)
     states = np.array([motion["strobe_theta"], motion["strobe_velocity"]])
     away = min(np.hypot(*(side * states - np.reshape(strobe, (2, 1)))).min() for side in (1, -1))
-    assert away < (1e-5 if x == 14.4011 else 1e-9)  # that frequency is a rounded one
+    assert away < (1e-5 if x == 14.4011 else 1e-9)  # 14.4011 is a rounded frequency

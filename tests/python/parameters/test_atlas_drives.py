@@ -91,7 +91,7 @@ def test_a_horizontal_shaker_has_rotations_that_come_in_pairs(kapitza, tmp_path)
                        "y": {"parameter": "drive_amplitude", "min": 0.15, "max": 3},
                        "max_period": 1, "seeds": 4, "checks": 4, "points": 16}}
     result = run_scene(kapitza, tmp_path, scene)[0]
-    assert int((result.group("atlas")["curve_kind"] == 2).sum()) == 1  # of the swing about down
+    assert int((result.group("atlas")["curve_kind"] == 2).sum()) == 1  # symmetry breaking of the swing about down
     for x, y, number in ((6.8693, 1.6227, 4), (7.1767, 0.6053, 2), (8.3045, 1.8092, 0)):
         values = {"drive_frequency": x, "drive_amplitude": y}
         search = {"velocity": {"min": -3, "max": 3}, "starts": 512, "max_period": 8}

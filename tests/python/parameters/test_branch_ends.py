@@ -9,7 +9,7 @@ from kapitza import Result
 
 BLACKBURN = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.5}
 BUTIKOV = {"k": 0.1, "damping": 0.1, "m": 0.5}
-# the pendulum, the swept key, its range and number of values, the key that is the same along the line
+# The pendulum, the swept key, its range and number of values, the key that is the same along the line
 LINES = {"m": (BUTIKOV, "m", 0.42, 0.9, 9, "k"),
          "k": (BUTIKOV, "k", -0.3, 0.4, 15, "m"),
          "damping": ({"k": 0.00826, "damping": 0.02, "m": 0.3}, "damping", 0.005, 0.1, 13, "m"),

@@ -286,7 +286,7 @@ def test_releases_from_rest(sweep, q, omega, low, high, count):
         if known is None:
             continue
         compared += 1
-        stays = np.flatnonzero(arrays["release_stays"][row][1::2]) + 1  # of whole degrees
+        stays = np.flatnonzero(arrays["release_stays"][row][1::2]) + 1  # edges in whole degrees
         scan, first, largest = (np.degrees(arrays[name][row]) for name in
                                 ("release_angle_scan", "release_angle", "release_angle_largest"))
         assert scan == pytest.approx(known["first_fail_deg"], abs=2e-5 if value < 0.3 else 1e-3)  # above: fractal edges

@@ -10,7 +10,7 @@ SOURCES = ROOT / "src"
 HEADERS = ROOT / "include" / "kapitza"
 FORTRAN = sorted(SOURCES.rglob("*.f90"))
 
-# The same number, by its name in C and by the one that gfortran takes.
+# Kinds of numbers by their names in C and in gfortran.
 KINDS = {"int32_t": "int", "int64_t": "long", "uint64_t": "long", "uint8_t": "signed char", "int16_t": "short",
          "__float128": "float128", "kz_status": "int", "kz_stepper": "int", "kz_precision": "int"}
 

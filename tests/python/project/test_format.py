@@ -8,6 +8,7 @@ from pathlib import Path
 
 import house_words
 import pytest
+import readable
 import yaml
 from conftest import ROOT
 from procedures import of_c, of_fortran
@@ -57,6 +58,42 @@ def test_house_words_are_read_from_the_style_page():
     assert ("hangs on", "depends on") in pairs and len(pairs) > 10
     page = "It hangs\nwell, and\nHangs on it.\n```\nhangs on\n```\n`hangs on`\n"
     assert house_words.faults(page, pairs) == [(3, "hangs on", "depends on")]
+
+
+# ---- names, comments and columns ----
+
+CODE = {".c", ".h", ".f90", ".inc", ".py"}
+LEFT = ("src/app/live/", "python/kapitza/engine.py", "python/kapitza/session.py", "python/kapitza/client.py",
+        "python/kapitza/explorer/", "web/")
+
+
+def test_sources_can_be_read():
+    """Each comment alone, static functions with their object, public macros with their prefix, 120 columns."""
+    found = []
+    for path in files("text"):
+        text = (ROOT / path).read_text() if path.suffix in CODE | {".js", ".css", ".html"} else ""
+        if path.suffix in CODE and path.parts[0] in ("src", "include", "tests", "python"):
+            rows = readable.faults(path.suffix, text) + (readable.macros(text) if path.parts[0] == "include" else [])
+        else:
+            rows = readable.wide(text) if path.parts[0] == "web" else []
+        found += [f"{path}:{line}: {wrong}" for line, wrong in rows if not str(path).startswith(LEFT)]
+    assert found == []
+
+
+@pytest.mark.parametrize("suffix, text, lines", [
+    (".c", "/* Of one. */\n/* Returns one. */\nint a; /* of it */ int b; /* rad */\n", [1, 3]),
+    (".c", "/* which goes on */\n/* kz_name of it. */\n/* and */ char *s = \"/* of */\";\n/* Begins, */\n", [1, 3, 4]),
+    (".c", "static int end(void);\nstatic int orbit_end(void);\nstatic const char *name(int a) {\n", [1, 3]),
+    (".f90", "!> Of the first\n!> of the second\nx = '! of' ! of it\n!$omp of\ny = 1 !< rad\n  ! so far\n", [1, 3, 6]),
+    (".py", "# What is it\n# that\nx = '# of'  # which\n# Sum\n# of it\n", [1, 3]),
+    (".py", "x" * 120 + "\n" + "x" * 121 + "\n", [2]),
+])
+def test_unreadable_lines_are_found(suffix, text, lines):
+    assert [line for line, _ in readable.faults(suffix, text)] == lines
+
+
+def test_macros_of_public_headers_have_a_prefix():
+    assert [line for line, _ in readable.macros("#define KZ_A 1\n#define B 2\n#define __C 3\n")] == [2]
 
 
 # ---- size of procedures ----

@@ -86,7 +86,7 @@ def test_install_names_every_library():
     assert all(re.search(rf"\b{name}\b", wheel) for name in libraries(2) - built)
 
 
-# What tries the commands of the page on installing: a script or a test, and a text in it.
+# Tests of the commands of the page on installing: a script or a test, and a text in it.
 TRIED = {
     "pip install kapitza-VERSION-py3-none-manylinux_2_28_x86_64.whl": ("packaging/wheel/try",
                                                                        "version-check ./kapitza-*.whl"),

@@ -16,7 +16,7 @@ FORTRAN = sorted(SOURCES.rglob("*.f90"))
 LONGEST, LONGEST_OF_PACKAGE = 400, 280  # lines of a file
 
 
-# What stands at the top of the repository, one word for each file or folder.
+# Files and folders at the top of the repository.
 TOP = """.ci .clang-format .dockerignore .editorconfig .gitignore .pre-commit-config.yaml .proselintrc.json
 CHANGELOG.md CITATION.cff CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE LICENSES README.md
 REUSE.toml SECURITY.md pyproject.toml

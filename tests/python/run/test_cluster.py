@@ -11,7 +11,7 @@ SMALL = ROOT / "scenes" / "small.yaml"
 DIRECT = ["--set", "basin.method=direct"]  # enough tiles for both hosts
 LARGE = [*DIRECT, "--set", "basin.theta.count=1600", "--set", "basin.velocity.count=1600"]  # some seconds
 HOSTS = ["mpirun", "--host", "first:1,second:1", "-n", "2"]
-# Of a shell: waits until the run has finished work to lose.
+# Shell commands that wait until the run has finished work to lose.
 LATER = 'until [ -e small.h5 ] || [ -n "$(find small.h5.checkpoint -size +300k 2>/dev/null)" ]; do sleep 0.1; done;'
 
 

@@ -47,7 +47,7 @@ def replaced(old, new):
     return GOOD.replace(old, new)
 
 
-# text of the scene; where the error stands; what the line must name. The reading itself is tested in
+# Text of the scene; where the error stands; what the line must name. The reading itself is tested in
 # tests/unit/app/scene.c.
 SCENES = {
     "unknown nested key": (GOOD + "  colour: red\n", "9:3",
@@ -193,7 +193,7 @@ SCENES = {
 }
 
 
-# arguments after `kapitza`; what the line must name
+# Arguments after `kapitza`; what the line must name
 COMMAND_LINES = {
     "nothing": ([], "no command"),
     "unknown command": (["modl", "scene.yaml"], "modl"),

@@ -80,7 +80,7 @@ TEST(test_processed) {
       kz_dynamics_strobe(reference, order_reference[i], theta[1], velocity[1]);
       assert_int_equal(row.period, same.period);
       for (int j = 0; j < row.period; j++) assert_true(fabs(velocity[0][j] - velocity[1][j]) < 1e-12);
-      /* the product of the multipliers is the contraction of areas */
+      /* The product of the multipliers is the contraction of areas */
       const double product = row.multiplier_re[0] * row.multiplier_re[1] - row.multiplier_im[0] * row.multiplier_im[1];
       assert_true(fabs(product / exp(-2 * M_PI * row.period / 55) - 1) < 1e-9);
     }

@@ -98,7 +98,7 @@ TEST(more_digits_agree) {
   kz_arbitrary *orbit = orbit_at(-2.3, 17, 400), *coarse = orbit_at(-2.3, 17, 400);
   arbitrary_advance(orbit, 4, 400, NULL);
   arbitrary_advance(coarse, 4, 200, NULL);
-  /* their difference is below what pairs show; their texts begin alike */
+  /* Their difference is below what pairs show; their texts begin alike */
   assert_true(arbitrary_distance(orbit, coarse) < 1e-31);
   char *text = malloc(kz_arbitrary_size(orbit));
   kz_arbitrary_write(orbit, text);

@@ -25,7 +25,7 @@ module kz_grown_cell_images
     real(dp), allocatable :: y(:, :)
     real(dp), allocatable :: slack_x(:, :) !< angle to be added on both sides
     real(dp), allocatable :: slack_y(:, :)
-    !> boxes around the images of the cells (0 : n_theta - 1, 0 : n_velocity - 1), whole cells. left: column on the
+    !> Boxes around the images of the cells (0 : n_theta - 1, 0 : n_velocity - 1), whole cells. left: column on the
     !> circle, from 0; n_columns = 0: the image is too large, or reaches beyond the grid's velocities
     integer(int32), allocatable :: left(:, :)
     integer(int32), allocatable :: n_columns(:, :)

@@ -196,7 +196,7 @@ contains
     end subroutine visit
   end subroutine grow
 
-  !> answer > 0: the attractor of the whole image of cell (i, l). Else blocker: an open stored cell of it, or NEVER.
+  !> Sets answer > 0: attractor of the whole image of cell (i, l); else blocker: an open stored cell of it, or NEVER.
   subroutine ask(circle, images, i, l, seen, answer, blocker)
     type(circle_t), intent(in) :: circle
     type(images_t), intent(in) :: images

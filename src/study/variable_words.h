@@ -1,4 +1,4 @@
-/* Units and meanings for tables of variables (kz_variable of store.h), which lie beside the study that writes them. */
+/* study: units and meanings for tables of variables (kz_variable of store.h), beside the study that writes them. */
 #pragma once
 
 #include "kapitza/store.h"
