@@ -120,7 +120,7 @@ class Comparison:
     def _renamed(self, labels: np.ndarray) -> np.ndarray:
         """Labels of the first by the ids of the second; -2 = an attractor that the second lacks."""
         count = len(self.first.attractors)
-        return np.array([*(self.matched.get(one, -2) for one in range(count)), -1])[labels]  # -1 takes the last
+        return np.asarray(np.array([*(self.matched.get(one, -2) for one in range(count)), -1])[labels])  # -1: the last
 
     @property
     def differing_share(self) -> float:

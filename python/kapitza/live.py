@@ -130,7 +130,7 @@ class Live:
                 "strobe": self._points(row.theta, row.velocity, row.period)}
 
     def _word(self, text: Any) -> str:
-        return self._library.ffi.string(text).decode()
+        return str(self._library.ffi.string(text).decode())
 
     @staticmethod
     def _points(theta: Any, velocity: Any, count: int) -> list[list[float]]:

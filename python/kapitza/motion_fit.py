@@ -119,18 +119,18 @@ def fitted(
         if not abs(point[names.index("omega0")]) < 20 * pace:
             return np.full((len(names) + 1, time.size), np.inf)
         columns = np.column_stack([point, point[:, None] + np.diag(step)])
-        return simulated(time, dict(zip(names, columns, strict=True)), omega, averaged) - measured
+        return np.asarray(simulated(time, dict(zip(names, columns, strict=True)), omega, averaged) - measured)
 
     latest: dict[bytes, np.ndarray] = {}
 
     def left(point: np.ndarray) -> np.ndarray:
         latest[point.tobytes()] = rows = solved(point)
-        return rows[0]
+        return np.asarray(rows[0])
 
     def jacobian(point: np.ndarray) -> np.ndarray:
         rows = latest.pop(point.tobytes())
         latest.clear()
-        return (rows[1:] - rows[0]).T / step
+        return np.asarray((rows[1:] - rows[0]).T / step)
 
     found = least_squares(left, begin, jacobian, x_scale="jac", max_nfev=tries, ftol=1e-6, xtol=1e-6, gtol=1e-12)
     spare = max(time.size - len(names), 1)

@@ -37,8 +37,8 @@ class Parser(argparse.ArgumentParser):
         return f"{word}: unknown option; " + (f"did you mean {nearest[0]}?" if nearest
                                               else f"{self.prog} --help lists the options")
 
-    def parse_known_args(self, args: Sequence[str] | None = None,
-                         namespace: Any = None) -> Any:  # type: ignore[override]
+    def parse_known_args(self, args: Sequence[str] | None = None,  # type: ignore[override]
+                         namespace: Any = None) -> Any:
         found = super().parse_known_args(args, namespace)
         if "" in (sys.argv[1:] if args is None else args) and str(getattr(found[0], "file", "?")) in ("", "."):
             self.error(f"{self._name}: the name of FILE is empty; {self.prog} FILE")

@@ -87,7 +87,7 @@ def _grown(cells: np.ndarray, wraps: bool) -> np.ndarray:
     wide = np.pad(cells, ((0, 0), (1, 1)), mode="wrap" if wraps else "edge")
     row = wide[:, :-2] | wide[:, 1:-1] | wide[:, 2:]
     high = np.pad(row, ((1, 1), (0, 0)), mode="edge")
-    return high[:-2] | high[1:-1] | high[2:]
+    return np.asarray(high[:-2] | high[1:-1] | high[2:])
 
 
 def _of_fresh_starts(result: "Result", place: tuple[float, float], widths: tuple[float, float], kind: str, starts: int,
@@ -95,7 +95,10 @@ def _of_fresh_starts(result: "Result", place: tuple[float, float], widths: tuple
     """Random starts, each followed to its end, with the 95 % interval (Wilson) of each share."""
     from kapitza.session import where
     random = np.random.default_rng(seed)
-    draw = (lambda: random.normal(size=starts)) if kind == "normal" else (lambda: random.uniform(-1, 1, starts))
+
+    def draw() -> np.ndarray:
+        return np.asarray(random.normal(size=starts) if kind == "normal" else random.uniform(-1, 1, starts))
+
     theta, velocity = (middle + width * draw() for middle, width in zip(place, widths, strict=True))
     ends = where(result.scene, theta, velocity)
     counts = ends["name"].fillna(NOT_SETTLED).value_counts()

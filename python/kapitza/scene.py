@@ -196,7 +196,7 @@ def flow(value: Any) -> str:
         return "[" + ", ".join(map(flow, plain)) + "]"
     if not plain.isprintable():  # a line break in single quotes would become a blank
         return json.dumps(plain, ensure_ascii=False)
-    return plain if _PLAIN.fullmatch(plain) else "'" + plain.replace("'", "''") + "'"
+    return str(plain) if _PLAIN.fullmatch(plain) else "'" + plain.replace("'", "''") + "'"
 
 
 @cache

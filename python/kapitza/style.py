@@ -127,7 +127,7 @@ def oklab(rgb: np.ndarray) -> np.ndarray:
 def of_oklab(place: np.ndarray) -> np.ndarray:
     """The nearest rgb [.., 3] of OKLab's (L, a, b)."""
     linear = np.clip((place @ _OKLAB_INVERSE[1].T) ** 3 @ _OKLAB_INVERSE[0].T, 0, 1)
-    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    return np.asarray(np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055))
 
 
 def _oklab(colour: str) -> np.ndarray:

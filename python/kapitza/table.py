@@ -81,7 +81,7 @@ def labels_array(basin: xarray.Dataset, attractors: xarray.Dataset) -> xarray.Da
 def flag_word(variable: xarray.DataArray, code: int) -> str:
     """What a code of a variable means, by its flag_values and flag_meanings."""
     values, words = np.ravel(variable.attrs["flag_values"]).tolist(), str(variable.attrs["flag_meanings"]).split()
-    return words[values.index(code)].replace("_", " ")
+    return str(words[values.index(code)]).replace("_", " ")
 
 
 def edges_of(basin: xarray.Dataset, name: str) -> tuple[float, float]:

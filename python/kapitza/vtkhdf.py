@@ -67,7 +67,8 @@ def _window(result: Result) -> tuple[list[int], list[float], list[float]]:
 def _axis(group: h5py.Group, name: str) -> np.ndarray:
     """The cell centres; where doubles do not tell them apart, as shares of the window's width from its centre."""
     values = group[name][:]
-    return group[f"{name}_offset"][:] if f"{name}_offset" in group and not (np.diff(values) > 0).all() else values
+    offset = f"{name}_offset" in group and not (np.diff(values) > 0).all()
+    return np.asarray(group[f"{name}_offset"][:] if offset else values)
 
 
 def main(words: list[str]) -> None:

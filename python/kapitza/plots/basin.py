@@ -94,7 +94,7 @@ def _slowness(periods: np.ndarray) -> np.ndarray:
     """0 for the faster half of the cells, 1 for the slowest percent, by the logarithm of the time between."""
     time = np.log1p(periods.astype(float))
     middle, last = np.percentile(time, (50, 99))
-    return np.clip((time - middle) / max(last - middle, 1e-300), 0, 1)
+    return np.asarray(np.clip((time - middle) / max(last - middle, 1e-300), 0, 1))
 
 
 def basin_entries(attractors: xarray.Dataset, colours: Sequence[str],

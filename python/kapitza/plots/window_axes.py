@@ -64,7 +64,7 @@ class Plane:
         rows, columns = (np.clip(np.floor((place - start) / (end - start) * count).astype(int), 0, count - 1) for place,
                          start, end, count
                          in ((velocity, low, high, labels.shape[0]), (theta, left, right, labels.shape[1])))
-        return labels[rows, columns]
+        return np.asarray(labels[rows, columns])
 
     @property
     def place(self) -> str:
