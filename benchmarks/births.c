@@ -24,32 +24,32 @@ static kz_status open_atlas(const char *path, kz_scene *scene, kz_atlas **atlas)
   kz_store_discard(store);
   for (int64_t i = 0; i < (*atlas)->n_curves; i++) {
     kz_atlas_curve *curve = (*atlas)->curve + i;
-    for (int64_t row = 0; row < curve->n; row++) kz_atlas_complete(*atlas, curve, row);
+    for (int64_t row = 0; row < curve->n; row++) kz_atlas_complete(*atlas, &curve->row[row].at);
     kz_atlas_sign(*atlas, curve);
   }
   return KZ_OK;
 }
 
 /* The next cycle of stdin, as one of a place. */
-static bool read_cycle(const kz_atlas *atlas, const double place[2], kz_plane_cycle *cycle, bool *exists) {
-  double state[2 * KZ_CURVE_POINTS];
+static bool read_cycle(const kz_atlas *atlas, const double place[2], kz_cycle *cycle, bool *exists) {
   int n;
   if (scanf("%d", &n) != 1 || n < 1 || n > KZ_CURVE_POINTS) return false;
-  for (int i = 0; i < 2 * n; i++)
-    if (scanf("%lf", state + i) != 1) return false;
-  *exists = kz_atlas_identify(atlas, place, state, n, INFINITY, cycle);
+  *cycle = (kz_cycle){.kind = {.side = 1, .points = n}, .place = {place[0], place[1]}};
+  for (int i = 0; i < n; i++)
+    if (scanf("%lf %lf", cycle->point[i], cycle->point[i] + 1) != 2) return false;
+  *exists = kz_atlas_identify(atlas, cycle, INFINITY);
   return true;
 }
 
 /* Adds the curve of a seed that the atlas lacks, and tells it. */
-static void births_tell(kz_atlas *atlas, const kz_plane_cycle *seed) {
+static void tell(kz_atlas *atlas, const kz_cycle *seed) {
   kz_atlas_curve curve;
   double value[2];
   kz_atlas_trace(atlas, seed, &curve);
   if (curve.n == 0) return kz_atlas_curve_free(&curve);
   if (!kz_atlas_keep(atlas, &curve)) return;
-  kz_atlas_values(atlas->scene->atlas, seed->y + 2 * seed->kind.of.points, value);
-  printf("lacks %d %d %.9g %.2e\n", (int)kz_kind_period(&seed->kind), (int)seed->kind.of.multiplier,
+  kz_atlas_values(atlas->scene->atlas, seed->place, value);
+  printf("lacks %d %d %.9g %.2e\n", (int)kz_kind_period(&seed->kind), (int)seed->kind.multiplier,
          value[kz_atlas_axis(atlas, 1)], kz_atlas_band_at(atlas, seed));
 }
 
@@ -61,7 +61,7 @@ int main(int count, char **word) {
   if (count != 4 || open_atlas(word[1], &scene, &atlas) != KZ_OK) return 2;
   for (int i = 0; i < 2; i++)
     if (kz_atlas_place(atlas, i, strtod(word[2 + i], NULL), place + kz_atlas_axis(atlas, i)) != KZ_OK) return 2;
-  kz_plane_cycle cycle;
+  kz_cycle cycle;
   for (bool exists; read_cycle(atlas, place, &cycle, &exists); cycles++) {
     KZ_AUTOFREE_BY(kz_atlas_seeds_free) kz_atlas_seeds births = {0};
     if (!exists) continue;

@@ -1,127 +1,150 @@
 !> Curves of bifurcations followed by pseudo-arclength: include/kapitza/dynamics_trace.h.
 module kz_curves_trace
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
+  use kz_cycles_continuation, only: way_t, end_t, continuation_t, GOES_ON
   use kz_cycles_corrector, only: newton, tangent_at
-  use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, images, wrapped, POINTS, UNKNOWNS, COARSE
-  use kz_cycles_normal_forms, only: normal_form
-  use kz_cycles_placed, only: at_place, on_line, outside, LEFT, CLOSED, LONG, MERGED, STUCK, NO_SEED, THIN
-  use kz_cycles_walker, only: walker_t, parents_t, advance, distance, set_parents, meets, find_zero, thinness, &
-                              OF_FORM, OF_WIDTH, CLOSE, FAR, HALVES, MIRROR, REST
+  use kz_cycles_curves, only: plane_t, cycle_t, system_t, make_system, images, wrapped, unknowns_of, cycle_of, POINTS, &
+                              UNKNOWNS, COARSE
+  use kz_cycles_normal_forms, only: form_t, normal_form
+  use kz_cycles_placed, only: at_place, on_line, MERGED, THIN
+  use kz_cycles_walker, only: walker_t, parents_t, distance, set_parents, meets, find_zero, thinness, OF_FORM, &
+                              OF_WIDTH, CLOSE, FAR, HALVES, MIRROR, REST
   use kz_splitting_jets, only: TERMS
   use kz_vector_map, only: PI
   implicit none
   private
 
-  !> KZ_SPECIAL_...
-  integer, parameter :: CUSP = 1, DEGENERATE = 2
+  !> kz_curve_row of dynamics_trace.h.
+  type, bind(C) :: row_t
+    type(cycle_t) :: at
+    real(dp) :: tangent(2)
+    type(form_t) :: form
+  end type row_t
+
+  type, extends(continuation_t) :: trace_t
+    type(form_t) :: form         !< at the last point
+    real(dp) :: excess, length = 0 !< thinness there; length of the curve
+    type(row_t), pointer :: rows(:) => null()
+    type(cycle_t), pointer :: special(:) => null()
+  contains
+    procedure :: ending, put, put_row, put_last, put_special, is_closed
+  end type trace_t
 
 contains
 
-  function trace(plane, kind, seed, direction, longest, most, rows, most_special, special, n_special, ending) &
-    bind(C, name='kz_curve_trace') result(n_rows)
+  subroutine trace(plane, seed, way, rows, special, reached) bind(C, name='kz_curve_trace')
     type(plane_t), intent(in) :: plane
-    type(curve_kind_t), intent(in) :: kind
-    real(dp), intent(in) :: seed(2*kind%points + 2)
-    integer(c_int32_t), value :: direction
-    real(dp), value :: longest
-    integer(c_int64_t), value :: most, most_special
-    real(dp), intent(out) :: rows(8 + 2*kind%points, most), special(3 + 2*kind%points, most_special)
-    integer(c_int64_t), intent(out) :: n_special
-    integer(c_int32_t), intent(out) :: ending
-    integer(c_int64_t) :: n_rows
-    type(walker_t) :: walker, turning
-    real(dp) :: before(UNKNOWNS), heading(UNKNOWNS)
-    type(parents_t) :: was, is
-    real(dp) :: form, side(2), former, excess, former_excess, start(UNKNOWNS), length, eigenvector(2)
+    type(cycle_t), intent(in) :: seed
+    type(way_t), intent(in) :: way
+    type(row_t), intent(out), target :: rows(way%most)
+    type(cycle_t), intent(out), target :: special(way%most_events)
+    type(end_t), intent(out) :: reached
+    type(trace_t) :: self
     logical :: found
-    integer :: n
 
-    n = 2*kind%points
-    n_rows = 0
-    n_special = 0
-    ending = NO_SEED
-    call make_system(plane, kind, 2, .true., walker%system)
-    call begin(walker, seed, longest, found)
-    if (.not. found) return
-    walker%tangent = direction*walker%tangent
-    start = walker%y
-    call set_parents(walker%system, walker%y, was)
-    call normal_form(walker%system, form, side, eigenvector)
-    excess = thinness(walker%system, form, side)
-    ending = THIN
-    if (excess > 0) return
-    call put(walker, form, side)
-    length = 0
-    ending = LONG
-    do while (n_rows < most)
-      before = walker%y
-      heading = walker%tangent
-      former = form
-      former_excess = excess
-      ending = STUCK
-      if (.not. advance(walker)) return
-      call set_parents(walker%system, walker%y, is)
-      call normal_form(walker%system, form, side, eigenvector)
-      excess = thinness(walker%system, form, side)
+    self%way = way
+    self%rows => rows
+    self%special => special
+    call make_system(plane, seed%kind, 2, .true., self%walker%system)
+    call begin(self%walker, unknowns_of(seed), way%longest, found)
+    if (found) then
+      self%walker%tangent = way%side*self%walker%tangent
+      self%first = self%walker%y
+      call set_parents(self%walker%system, self%walker%y, self%was)
+      call normal_form(self%walker%system, self%form)
+      self%excess = thinness(self%walker%system, self%form)
+      self%reached%ending = THIN
+      if (self%excess <= 0) call self%put()
+      if (self%excess <= 0) call self%follow()
+    end if
+    reached = self%reached
+  end subroutine trace
+
+  integer function ending(self, is)
+    class(trace_t), intent(inout) :: self
+    type(parents_t), intent(in) :: is
+    type(form_t) :: form
+    real(dp) :: excess
+
+    associate (system => self%walker%system)
+      call normal_form(system, form)
+      excess = thinness(system, form)
+      ending = THIN
       if (excess > 0) then
-        call put_last()
+        call self%put_last(excess)
         return
       end if
       ending = MERGED
       ! Beside its parent the equations of a fold have that parent's own curve as a solution too
-      if (kind%multiplier > 0) then
-        if (meets(was, is, int(kind%points)) > 0) return
-        if (on_parents_curve(walker%system, walker%y, was, is)) return
+      if (system%kind%multiplier > 0) then
+        if (meets(self%was, is, system%n) > 0) return
+        if (on_parents_curve(system, self%walker%y, self%was, is)) return
       end if
-      if ((former > 0) .neqv. (form > 0)) then
-        turning = walker
-        call locate_special(turning, before, heading, former, form, special, n_special, found)
-        ! A row of its own: what branches off attracts on one side of it alone
-        if (found .and. kind%multiplier < 0 .and. n_rows + 1 < most) call put_turning()
-      end if
-      was = is
-      length = length + distance(walker%system, walker%y, before)
-      call put(walker, form, side)
-      ending = LEFT
-      if (outside(plane, walker%y(n + 1:n + 2))) return
-      ending = CLOSED
-      if (length > 6*longest .or. n_rows > 40) then
-        if (passes(walker%system, before, walker%y, start)) return
-      end if
-      ending = LONG
-    end do
-  contains
-    subroutine put(at, form, side)
-      type(walker_t), intent(in) :: at
-      real(dp), intent(in) :: form, side(2)
+      ending = GOES_ON
+      if ((self%form%coefficient > 0) .neqv. (form%coefficient > 0)) call self%put_special(form)
+      self%form = form
+      self%excess = excess
+    end associate
+  end function ending
 
-      n_rows = n_rows + 1
-      rows(:2, n_rows) = at%sharp(n + 1:n + 2)
-      rows(3:4, n_rows) = at%tangent(n + 1:n + 2)
-      rows(5, n_rows) = form
-      rows(6:7, n_rows) = side
-      rows(8, n_rows) = minval(was%distance)
-      rows(9:, n_rows) = at%sharp(:n)
-    end subroutine put
+  subroutine put(self)
+    class(trace_t), intent(inout) :: self
 
-    !> The point where the band is as narrow as the narrowest.
-    subroutine put_last()
-      real(dp) :: zero, unused(2)
+    call self%put_row(self%walker, self%form)
+  end subroutine put
 
-      ending = THIN
-      call find_zero(walker, before, heading, former_excess, excess, OF_WIDTH, zero, found)
-      if (.not. found) return
-      call normal_form(walker%system, form, side, unused)
-      call put(walker, form, side)
-    end subroutine put_last
+  subroutine put_row(self, at, form)
+    class(trace_t), intent(inout) :: self
+    type(walker_t), intent(in) :: at
+    type(form_t), intent(in) :: form
+    integer :: n
 
-    subroutine put_turning()
-      real(dp) :: zero, beside(2), unused(2)
+    n = 2*at%system%n
+    self%reached%rows = self%reached%rows + 1
+    self%rows(self%reached%rows) = row_t(cycle_of(at%system, at%sharp), at%tangent(n + 1:n + 2), form)
+  end subroutine put_row
 
-      call normal_form(turning%system, zero, beside, unused)
-      call put(turning, 0.0_dp, beside)
-    end subroutine put_turning
-  end function trace
+  !> The point where the band is as narrow as the narrowest.
+  subroutine put_last(self, excess)
+    class(trace_t), intent(inout) :: self
+    real(dp), intent(in) :: excess !< at the last point
+    real(dp) :: zero
+
+    if (.not. find_zero(self%walker, self%before, self%heading, [self%excess, excess], OF_WIDTH, zero)) return
+    call normal_form(self%walker%system, self%form)
+    call self%put()
+  end subroutine put_last
+
+  !> The place where the normal form changes its sign: with the multiplier -1 a row of its own, as what branches off
+  !> attracts on one side of it alone.
+  subroutine put_special(self, form)
+    class(trace_t), intent(inout) :: self
+    type(form_t), intent(in) :: form !< at the last point
+    real(dp), parameter :: POLE = 1e3_dp
+    type(walker_t) :: turning
+    type(form_t) :: at
+    real(dp) :: number, ends(2)
+
+    ends = [self%form%coefficient, form%coefficient]
+    if (self%reached%events == self%way%most_events) return
+    turning = self%walker
+    if (.not. find_zero(turning, self%before, self%heading, ends, OF_FORM, number)) return
+    if (abs(number) > POLE) return
+    self%reached%events = self%reached%events + 1
+    self%special(self%reached%events) = cycle_of(turning%system, turning%sharp)
+    if (turning%system%kind%multiplier > 0 .or. self%reached%rows + 1 >= self%way%most) return
+    call normal_form(turning%system, at)
+    at%coefficient = 0
+    call self%put_row(turning, at)
+  end subroutine put_special
+
+  logical function is_closed(self)
+    class(trace_t), intent(inout) :: self
+
+    self%length = self%length + distance(self%walker%system, self%walker%y, self%before)
+    is_closed = self%length > 6*self%way%longest .or. self%reached%rows > 40
+    if (is_closed) is_closed = passes(self%walker%system, self%before, self%walker%y, self%first)
+  end function is_closed
 
   !> Begins on a curve near the seed.
   subroutine begin(walker, seed, longest, found)
@@ -199,80 +222,58 @@ contains
     real(dp), intent(in) :: y(:)
     type(parents_t), intent(in) :: was, is
     real(dp), parameter :: BESIDE = 1e-3_dp ! rad
-    type(curve_kind_t) :: kind
-    real(dp) :: parent(UNKNOWNS), next, later(2, 0:TERMS, POINTS)
+    type(cycle_t) :: parent
+    real(dp) :: next, later(2, 0:TERMS, POINTS)
     logical :: on, at_rest, half
-    integer :: which, n
+    integer :: which
 
     on = .false.
     do which = HALVES, REST
       if (.not. is%distance(which) < min(BESIDE, was%distance(which))) cycle
       half = which == MIRROR .and. system%plane%half_period /= 0
       at_rest = which == REST .or. (which == MIRROR .and. system%n == 1 .and. .not. half)
-      kind = system%kind
-      kind%points = merge(1, (system%n + merge(1, 0, half))/2, at_rest)
-      kind%side = merge(-1, 1, which == MIRROR)
-      kind%half = merge(1, 0, half)
-      n = 2*kind%points
-      parent(:n) = y(:n)
-      if (at_rest) parent(:n) = [PI*anint(y(1)/PI), 0.0_dp]
-      parent(n + 1:n + 2) = y(2*system%n + 1:2*system%n + 2)
-      if (half) call images(system, COARSE, 0, parent(n - 1:n), parent(n + 1:n + 2), 1, 1, later, on)
-      next = merge(later(1, 0, 1), y(n + 1), half)
-      if (at_rest) next = parent(1)
-      kind%turns = nint((next - kind%side*parent(1))/(2*PI))
-      kind%multiplier = -1
-      on = is_on(system%plane, kind, parent) /= 0
+      parent = cycle_of(system, y)
+      associate (kind => parent%kind, first => parent%point(:, 1))
+        kind%points = merge(1, (system%n + merge(1, 0, half))/2, at_rest)
+        kind%side = merge(-1, 1, which == MIRROR)
+        kind%half = merge(1, 0, half)
+        kind%multiplier = -1
+        next = parent%point(1, kind%points + 1)
+        if (at_rest) first = [PI*anint(y(1)/PI), 0.0_dp]
+        if (half) call images(system, COARSE, 0, parent%point(:, kind%points), parent%place, 1, 1, later, on)
+        if (half) next = later(1, 0, 1)
+        if (at_rest) next = first(1)
+        kind%turns = nint((next - kind%side*first(1))/(2*PI))
+      end associate
+      on = is_on(system%plane, parent) /= 0
       if (on) return
     end do
   end function on_parents_curve
 
-  !> Where the normal form changes its sign between two points of a curve.
-  subroutine locate_special(walker, from, heading, at_low, at_high, special, n_special, found)
-    type(walker_t), intent(inout) :: walker !< at the second point, then at the special one
-    real(dp), intent(in) :: from(:), heading(:) !< the first point and the tangent there
-    real(dp), intent(in) :: at_low, at_high !< normal forms of both
-    real(dp), intent(inout) :: special(:, :)
-    integer(c_int64_t), intent(inout) :: n_special
-    logical, intent(out) :: found !< a place of the list was left, and the normal form is 0 there
-    real(dp), parameter :: POLE = 1e3_dp
-    real(dp) :: form
-    integer :: n
-
-    found = .false.
-    if (n_special == size(special, 2)) return
-    n = 2*walker%system%n
-    call find_zero(walker, from, heading, at_low, at_high, OF_FORM, form, found)
-    found = found .and. abs(form) <= POLE
-    if (.not. found) return
-    n_special = n_special + 1
-    special(1, n_special) = merge(CUSP, DEGENERATE, walker%system%kind%multiplier > 0)
-    special(2:3, n_special) = walker%sharp(n + 1:n + 2)
-    special(4:, n_special) = walker%sharp(:n)
-  end subroutine locate_special
-
   !> By the trace; where that changes beyond its limit within a place's error, by where the multiplier is reached.
-  function is_on(plane, kind, y) bind(C, name='kz_curve_is_on') result(on)
+  function is_on(plane, cycle) bind(C, name='kz_cycle_is_on') result(on)
     type(plane_t), intent(in) :: plane
-    type(curve_kind_t), intent(in) :: kind
-    real(dp), intent(inout) :: y(2*kind%points + 2)
+    type(cycle_t), intent(inout) :: cycle
     integer(c_int32_t) :: on
     real(dp), parameter :: CROSSED = 1e-4_dp, SAME = 1e-9_dp, BESIDE = 1e-3_dp ! trace; sides of the plane; rad
     real(dp), parameter :: ALONG(2, 2) = reshape([1, 0, 0, 1], [2, 2])
-    real(dp) :: found(2*kind%points + 2), numbers(2)
+    type(cycle_t) :: found
     integer :: n, axis
 
-    n = 2*kind%points
-    found = y
-    on = at_place(plane, kind, found, numbers)
-    if (abs(numbers(1) - kind%multiplier*(1 + numbers(2))) > CROSSED*(1 + numbers(2))) on = 0
+    n = cycle%kind%points
+    found = cycle
+    on = at_place(plane, found)
+    associate (trace => found%number(1), determinant => found%number(2))
+      if (abs(trace - cycle%kind%multiplier*(1 + determinant)) > CROSSED*(1 + determinant)) on = 0
+    end associate
     do axis = 1, 2
       if (on /= 0) exit
-      found = y
-      on = on_line(plane, kind, found, ALONG(:, axis))
-      if (norm2(found(n + 1:) - y(n + 1:)) > SAME .or. maxval(abs(found(:n) - y(:n))) > BESIDE) on = 0
+      found = cycle
+      on = on_line(plane, found, ALONG(:, axis))
+      if (norm2(found%place - cycle%place) > SAME) on = 0
+      if (maxval(abs(found%point(:, :n) - cycle%point(:, :n))) > BESIDE) on = 0
     end do
-    if (on /= 0) y = found
+    if (on /= 0) cycle = found
   end function is_on
 
 end module kz_curves_trace

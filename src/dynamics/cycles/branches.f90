@@ -1,111 +1,67 @@
 !> Branches of cycles along a line by pseudo-arclength, and events on them: include/kapitza/dynamics_curves.h.
 module kz_cycles_branches
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
-  use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, linearise, wrapped, UNKNOWNS, COARSE
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
+  use kz_cycles_continuation, only: way_t, end_t, continuation_t, GOES_ON
+  use kz_cycles_curves, only: plane_t, kind_t, cycle_t, system_t, make_system, linearise, wrapped, unknowns_of, &
+                              cycle_of, UNKNOWNS, COARSE
   use kz_cycles_corrector, only: newton, tangent_at
-  use kz_cycles_normal_forms, only: normal_form
-  use kz_cycles_placed, only: on_line, outside, LEFT, CLOSED, LONG, MERGED, STUCK, NO_SEED
-  use kz_cycles_walker, only: walker_t, parents_t, advance, distance, set_parents, meets, becomes, find_zero, FOLD, FLIP
+  use kz_cycles_normal_forms, only: form_t, normal_form
+  use kz_cycles_placed, only: on_line, LONG, MERGED
+  use kz_cycles_walker, only: walker_t, parents_t, distance, set_parents, meets, becomes, find_zero, FOLD, FLIP
   use kz_splitting_jets, only: DX, DY
   implicit none
   private
 
-  type, bind(C) :: branch_row_t
-    real(dp) :: y(UNKNOWNS), number(2)
-  end type branch_row_t
-
-  type, bind(C) :: branch_event_t
-    real(dp) :: y(UNKNOWNS)
-    integer(c_int32_t) :: what
-  end type branch_event_t
-
-  type, bind(C) :: branch_way_t
-    real(dp) :: along(2), longest, step
-    integer(c_int64_t) :: most, most_events
-    integer(c_int32_t) :: side
-  end type branch_way_t
-
-  type, bind(C) :: branch_end_t
-    integer(c_int64_t) :: rows, events
-    real(dp) :: step
-    integer(c_int32_t) :: ending
-  end type branch_end_t
-
-  !> A branch that is followed: its last point, what was before it, and what was found.
-  type :: branch_t
-    type(branch_way_t) :: way
-    type(branch_end_t) :: reached
-    type(walker_t) :: walker
-    type(parents_t) :: was
-    real(dp), dimension(UNKNOWNS) :: first = 0, before = 0, heading = 0
-    real(dp) :: numbers(2) = 0, last(2) = 0 !< test values at the last point and the one before: 0 at a fold, at a flip
-    type(branch_row_t), pointer :: rows(:) => null()
-    type(branch_event_t), pointer :: events(:) => null()
+  type, extends(continuation_t) :: branch_t
+    real(dp) :: numbers(2) = 0 !< test values at the last point: 0 at a fold, at a flip
+    type(cycle_t), pointer :: rows(:) => null(), events(:) => null()
   contains
-    procedure :: follow, put, merges, cross, add_event, is_closed
+    procedure :: ending, put, merges, cross, add_event, is_closed
   end type branch_t
 
 contains
 
-  subroutine branch(plane, kind, start, way, rows, events, reached) bind(C, name='kz_curve_branch')
+  subroutine branch(plane, start, way, rows, events, reached) bind(C, name='kz_cycle_continue')
     type(plane_t), intent(in) :: plane
-    type(curve_kind_t), intent(in) :: kind
-    real(dp), intent(in) :: start(2*kind%points + 2)
-    type(branch_way_t), intent(in) :: way
-    type(branch_row_t), intent(out), target :: rows(way%most)
-    type(branch_event_t), intent(out), target :: events(way%most_events)
-    type(branch_end_t), intent(out) :: reached
+    type(cycle_t), intent(in) :: start
+    type(way_t), intent(in) :: way
+    type(cycle_t), intent(out), target :: rows(way%most), events(way%most_events)
+    type(end_t), intent(out) :: reached
     type(branch_t) :: self
     logical :: found
 
     self%way = way
     self%rows => rows
     self%events => events
-    self%reached = branch_end_t(0, 0, way%step, NO_SEED)
-    call make_system(plane, kind, 1, .false., self%walker%system)
+    self%reached%step = way%step
+    call make_system(plane, start%kind, 1, .false., self%walker%system)
     self%walker%system%basis(:, 1) = way%along
     self%walker%is_sharp = .false.
-    call begin_branch(self%walker, start, int(way%side), way%longest, found)
-    if (found) call self%follow()
+    call begin_branch(self%walker, unknowns_of(start), int(way%side), way%longest, found)
+    if (found) then
+      if (way%step > 0) self%walker%step = min(way%step, way%longest)
+      self%first = self%walker%y
+      call set_parents(self%walker%system, self%walker%y, self%was)
+      call self%put()
+      if (way%side /= 0) self%numbers(FOLD) = 0
+      call self%follow()
+    end if
     reached = self%reached
   end subroutine branch
 
-  !> From the first point to where the branch ends.
-  subroutine follow(self)
+  integer function ending(self, is)
     class(branch_t), intent(inout) :: self
-    type(parents_t) :: is
+    type(parents_t), intent(in) :: is
+    real(dp) :: last(2)
 
-    associate (walker => self%walker, ending => self%reached%ending)
-      if (self%way%step > 0) walker%step = min(self%way%step, self%way%longest)
-      self%first = walker%y
-      call set_parents(walker%system, walker%y, self%was)
-      call self%put()
-      if (self%way%side /= 0) self%numbers(FOLD) = 0
-      do while (self%reached%rows < self%way%most)
-        self%last = self%numbers
-        self%before = walker%y
-        self%heading = walker%tangent
-        ending = STUCK
-        if (.not. advance(walker)) return
-        self%reached%step = walker%step
-        call set_parents(walker%system, walker%y, is)
-        ending = MERGED
-        if (self%merges(is)) return
-        self%numbers = numbers_of(walker)
-        if (self%last(FOLD)*self%numbers(FOLD) < 0) call self%cross(FOLD, 1)
-        if (self%last(FLIP)*self%numbers(FLIP) < 0) call self%cross(FLIP, -1)
-        ending = LONG
-        if (self%way%most_events > 0 .and. self%reached%events == self%way%most_events) return
-        self%was = is
-        call self%put()
-        ending = LEFT
-        if (outside(walker%system%plane, place_of(walker))) return
-        ending = CLOSED
-        if (self%is_closed()) return
-      end do
-      ending = LONG
-    end associate
-  end subroutine follow
+    ending = MERGED
+    if (self%merges(is)) return
+    last = self%numbers
+    self%numbers = numbers_of(self%walker)
+    if (last(FOLD)*self%numbers(FOLD) < 0) call self%cross(FOLD, 1, last(FOLD))
+    if (last(FLIP)*self%numbers(FLIP) < 0) call self%cross(FLIP, -1, last(FLIP))
+    ending = merge(LONG, GOES_ON, self%way%most_events > 0 .and. self%reached%events == self%way%most_events)
+  end function ending
 
   pure function numbers_of(walker) result(numbers)
     type(walker_t), intent(in) :: walker
@@ -114,21 +70,12 @@ contains
     numbers = 1 + walker%system%determinant + [-1, 1]*walker%system%trace
   end function numbers_of
 
-  pure function place_of(walker) result(place)
-    type(walker_t), intent(in) :: walker
-    real(dp) :: place(2)
-
-    place = walker%y(2*walker%system%n + 1:2*walker%system%n + 2)
-  end function place_of
-
   subroutine put(self)
     class(branch_t), intent(inout) :: self
 
     self%reached%rows = self%reached%rows + 1
     self%numbers = numbers_of(self%walker)
-    associate (system => self%walker%system)
-      self%rows(self%reached%rows) = branch_row_t(cycle_of(system%n, self%walker%y), [system%trace, system%determinant])
-    end associate
+    self%rows(self%reached%rows) = cycle_of(self%walker%system, self%walker%y)
   end subroutine put
 
   !> Whether the branch meets what it grows out of, an event.
@@ -147,33 +94,36 @@ contains
   end function merges
 
   !> The event between the two points: the nearest zero of its own equation, or what the zero of its number leads to.
-  subroutine cross(self, event, multiplier)
+  subroutine cross(self, event, multiplier, was)
     class(branch_t), intent(inout) :: self
     integer, intent(in) :: event, multiplier
+    real(dp), intent(in) :: was !< the number at the point before
     real(dp), parameter :: NEAR = 0.3_dp
     real(dp) :: y(UNKNOWNS), guess(UNKNOWNS), number, length
-    type(curve_kind_t) :: of_event
     type(walker_t) :: between
-    logical :: found
 
-    associate (system => self%walker%system, was => self%last(event), is => self%numbers(event))
-      of_event = system%kind
-      of_event%multiplier = multiplier
+    associate (system => self%walker%system, is => self%numbers(event))
       length = distance(system, self%walker%y, self%before)
       guess = self%before + was/(was - is)*(self%walker%y - self%before)
-      y = guess
-      found = on_line(system%plane, of_event, y, self%way%along) /= 0
-      if (found) found = distance(system, y, guess) < NEAR*length
-      if (.not. found) then
+      if (.not. is_near(guess)) then
         between = self%walker
-        call find_zero(between, self%before, self%heading, was, is, event, number, found)
-        if (.not. found) return
-        y = between%y
-        if (on_line(system%plane, of_event, y, self%way%along) == 0) y = between%y
-        if (distance(system, y, between%y) > NEAR*length) y = between%y
+        if (.not. find_zero(between, self%before, self%heading, [was, is], event, number)) return
+        if (.not. is_near(between%y)) y = between%y
       end if
     end associate
     call self%add_event(event, y)
+  contains
+    !> Whether the equation of the event has a zero, y, near a point.
+    logical function is_near(point)
+      real(dp), intent(in) :: point(:)
+      type(cycle_t) :: at
+
+      at = cycle_of(self%walker%system, point)
+      at%kind%multiplier = multiplier
+      is_near = on_line(self%walker%system%plane, at, self%way%along) /= 0
+      y = unknowns_of(at)
+      if (is_near) is_near = distance(self%walker%system, y, point) < NEAR*length
+    end function is_near
   end subroutine cross
 
   subroutine add_event(self, event, y)
@@ -183,21 +133,14 @@ contains
 
     if (self%reached%events == self%way%most_events) return
     self%reached%events = self%reached%events + 1
-    self%events(self%reached%events) = branch_event_t(cycle_of(self%walker%system%n, y), int(event, c_int32_t))
+    associate (added => self%events(self%reached%events))
+      added = cycle_of(self%walker%system, y)
+      added%event = int(event, c_int32_t)
+    end associate
   end subroutine add_event
 
-  pure function cycle_of(n, y)
-    integer, intent(in) :: n !< points
-    real(dp), intent(in) :: y(:)
-    real(dp) :: cycle_of(UNKNOWNS)
-
-    cycle_of(:2*n + 2) = y(:2*n + 2)
-    cycle_of(2*n + 3:) = 0
-  end function cycle_of
-
-  !> Whether the branch is at its first point again.
-  pure logical function is_closed(self)
-    class(branch_t), intent(in) :: self
+  logical function is_closed(self)
+    class(branch_t), intent(inout) :: self
     real(dp) :: moved(UNKNOWNS)
     integer :: n
 
@@ -240,8 +183,9 @@ contains
   function tangent_of_fold(walker, fold) result(direction)
     type(walker_t), intent(in) :: walker
     real(dp), intent(in) :: fold(:)
-    real(dp) :: direction(2*walker%system%n), residual(UNKNOWNS), matrix(UNKNOWNS, UNKNOWNS), form, side(2), vector(2)
-    type(curve_kind_t) :: kind
+    real(dp) :: direction(2*walker%system%n), residual(UNKNOWNS), matrix(UNKNOWNS, UNKNOWNS)
+    type(form_t) :: form
+    type(kind_t) :: kind
     type(system_t) :: system
     integer :: i
     logical :: exists
@@ -252,10 +196,10 @@ contains
     call make_system(walker%system%plane, kind, 2, .true., system)
     call linearise(system, COARSE, 3, fold, residual, matrix, exists)
     if (.not. exists) return
-    call normal_form(system, form, side, vector)
+    call normal_form(system, form)
     do i = 1, system%n
-      direction(2*i - 1:2*i) = vector
-      vector = matmul(system%image(:, DX:DY, i), vector)
+      direction(2*i - 1:2*i) = form%vector
+      form%vector = matmul(system%image(:, DX:DY, i), form%vector)
     end do
   end function tangent_of_fold
 

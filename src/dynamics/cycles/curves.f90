@@ -14,17 +14,23 @@ module kz_cycles_curves
                            DXX, DXY, DYY, DXP, DYP, DXQ, DYQ
   implicit none
   private
-  public :: plane_t, curve_kind_t, system_t, make_system, linearise, images, inner, metric, moved, wrapped, POINTS, &
-            UNKNOWNS, COARSE, FINE
+  public :: plane_t, kind_t, cycle_t, system_t, make_system, linearise, images, inner, metric, moved, wrapped, &
+            unknowns_of, cycle_of, POINTS, UNKNOWNS, COARSE, FINE
 
   !> Points of a cycle, and unknowns, at most; the two numbers of steps a period.
   integer, parameter :: POINTS = 16, UNKNOWNS = 2*POINTS + 2, COARSE = 1, FINE = 2
   !> Weight of the points in distances; that of the place is 1.
   real(dp), parameter :: OF_POINTS = 0.04_dp
 
-  type, bind(C) :: curve_kind_t
-    integer(c_int32_t) :: side, points, multiplier, turns, stride = 0, half = 0
-  end type curve_kind_t
+  type, bind(C) :: kind_t
+    integer(c_int32_t) :: side, points, multiplier, turns, stride = 0, half = 0, rest = 0
+  end type kind_t
+
+  type, bind(C) :: cycle_t
+    type(kind_t) :: kind
+    integer(c_int32_t) :: event
+    real(dp) :: place(2), point(2, POINTS), number(2)
+  end type cycle_t
 
   type, bind(C) :: plane_t
     type(c_funptr) :: pendulum
@@ -36,7 +42,7 @@ module kz_cycles_curves
   !> The equations of one kind of cycles on a plane, and what they were at the last place.
   type :: system_t
     type(plane_t) :: plane
-    type(curve_kind_t) :: kind
+    type(kind_t) :: kind
     integer :: n = 0                          !< points
     integer :: stride = 1                     !< drive periods from one point to the next
     integer :: columns = 0                    !< directions in which the place may move
@@ -63,7 +69,7 @@ contains
   !> Sets up the equations.
   subroutine make_system(plane, kind, columns, on_curve, system)
     type(plane_t), intent(in) :: plane !< gives the pendulum of a place
-    type(curve_kind_t), intent(in) :: kind !< kind of the cycles
+    type(kind_t), intent(in) :: kind !< kind of the cycles
     integer, intent(in) :: columns !< 0: the place is fixed; 1: on a line, whose direction is basis(:, 1); 2: free
     logical, intent(in) :: on_curve !< whether a multiplier is kind%multiplier
     type(system_t), intent(out) :: system !< the equations
@@ -177,7 +183,7 @@ contains
     logical :: found
     integer(c_int64_t) :: i
 
-    call make_system(plane, curve_kind_t(1, 1, 1, 0), 0, .false., system)
+    call make_system(plane, kind_t(1, 1, 1, 0), 0, .false., system)
     exists = 1
     do i = 1, n
       call images(system, COARSE, 0, state(:, i - 1), at, 1, int(halves), image, found)
@@ -296,6 +302,31 @@ contains
     step(:n) = to(:n) - from(:n)
     step(n + 1:) = matmul(to(n + 1:n + 2) - from(n + 1:n + 2), system%basis(:, :system%columns))
   end function moved
+
+  !> The unknowns of a cycle, 0 behind them.
+  pure function unknowns_of(cycle) result(y)
+    type(cycle_t), intent(in) :: cycle
+    real(dp) :: y(UNKNOWNS)
+    integer :: n
+
+    n = 2*cycle%kind%points
+    y = 0
+    y(:n) = reshape(cycle%point(:, :cycle%kind%points), [n])
+    y(n + 1:n + 2) = cycle%place
+  end function unknowns_of
+
+  !> The cycle of some unknowns, with trace and determinant where the equations were last.
+  pure function cycle_of(system, y) result(cycle)
+    type(system_t), intent(in) :: system
+    real(dp), intent(in) :: y(:)
+    type(cycle_t) :: cycle
+
+    cycle%kind = system%kind
+    cycle%event = 0
+    cycle%place = y(2*system%n + 1:2*system%n + 2)
+    cycle%point = reshape(y(:2*system%n), [2, POINTS], [0.0_dp])
+    cycle%number = [system%trace, system%determinant]
+  end function cycle_of
 
   !> An angle without whole turns.
   elemental real(dp) function wrapped(angle)

@@ -2,39 +2,41 @@
 !> Theory).
 module kz_cycles_normal_forms
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
-  use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, linearise, UNKNOWNS, COARSE
+  use kz_cycles_curves, only: plane_t, cycle_t, system_t, make_system, linearise, unknowns_of, UNKNOWNS, COARSE
   use kz_maps_matrices, only: inverse_of, IDENTITY
   use kz_splitting_jets, only: DX, DY, DP_ => DP, DQ, DXX, DXY, DYY, DXP, DYP, DXQ, DYQ, DXXX, DXXY, DXYY, DYYY
   implicit none
   private
-  public :: normal_form
+  public :: form_t, normal_form
+
+  !> kz_normal_form of dynamics_curves.h.
+  type, bind(C) :: form_t
+    real(dp) :: coefficient, side(2), vector(2)
+  end type form_t
 
 contains
 
-  function form_at(plane, kind, y, coefficient, side, eigenvector) bind(C, name='kz_curve_form') result(found)
+  function form_at(plane, cycle, form) bind(C, name='kz_cycle_form') result(found)
     type(plane_t), intent(in) :: plane
-    type(curve_kind_t), intent(in) :: kind
-    real(dp), intent(in) :: y(2*kind%points + 2)
-    real(dp), intent(out) :: coefficient, side(2), eigenvector(2)
+    type(cycle_t), intent(in) :: cycle
+    type(form_t), intent(out) :: form
     integer(c_int32_t) :: found
     real(dp) :: residual(UNKNOWNS), matrix(UNKNOWNS, UNKNOWNS)
     type(system_t) :: system
     logical :: exists
 
-    call make_system(plane, kind, 2, .true., system)
-    call linearise(system, COARSE, 3, y, residual, matrix, exists)
+    call make_system(plane, cycle%kind, 2, .true., system)
+    call linearise(system, COARSE, 3, unknowns_of(cycle), residual, matrix, exists)
     found = merge(1, 0, exists)
-    if (exists) call normal_form(system, coefficient, side, eigenvector)
+    if (exists) call normal_form(system, form)
   end function form_at
 
   !> The normal form at a point of a curve, from the images of third order. e = 1: half the second derivative along the
   !> eigenvector; the pair of cycles exists on the side `side`. e = -1: the cubic coefficient, > 0 where the child
   !> attracts beyond the curve; the cycle itself attracts on the side `side`. Both sides are gradients by the place.
-  subroutine normal_form(system, coefficient, side, eigenvector)
+  subroutine normal_form(system, form)
     type(system_t), intent(in) :: system !< at the point
-    real(dp), intent(out) :: coefficient !< the normal form
-    real(dp), intent(out) :: side(2) !< a gradient by the place
-    real(dp), intent(out) :: eigenvector(2) !< unit eigenvector at the first point
+    type(form_t), intent(out) :: form !< with the gradient by the place, and the unit eigenvector at the first point
     real(dp) :: jacobian(2, 2), hesse(2, 2, 2), third(2, 2, 2, 2), by_place(2, 2), mixed(2, 2, 2)
     real(dp) :: a(2, 2), q(2), p(2), bend(2), cubic, inverse(2, 2), shift(2), w(2)
     integer :: i, j, k
@@ -47,13 +49,13 @@ contains
     p = [-a(2, 2), a(1, 2)]
     if (norm2(a(:, 1)) > norm2(a(:, 2))) p = [-a(2, 1), a(1, 1)]
     p = p/dot_product(p, q)
-    eigenvector = q
+    form%vector = q
     do i = 1, 2
       bend(i) = dot_product(q, matmul(hesse(i, :, :), q))
     end do
     if (system%kind%multiplier > 0) then
-      coefficient = 0.5_dp*dot_product(p, bend)
-      side = -sign(1.0_dp, coefficient)*matmul(p, by_place)
+      form%coefficient = 0.5_dp*dot_product(p, bend)
+      form%side = -sign(1.0_dp, form%coefficient)*matmul(p, by_place)
       return
     end if
     cubic = 0
@@ -64,13 +66,13 @@ contains
     end do
     inverse = inverse_of(jacobian - IDENTITY)
     w = matmul(inverse, bend)
-    coefficient = cubic/6
+    form%coefficient = cubic/6
     do i = 1, 2
-      coefficient = coefficient - 0.5_dp*p(i)*dot_product(q, matmul(hesse(i, :, :), w))
+      form%coefficient = form%coefficient - 0.5_dp*p(i)*dot_product(q, matmul(hesse(i, :, :), w))
     end do
     do k = 1, 2
       shift = -matmul(inverse, by_place(:, k))
-      side(k) = mixed(1, 1, k) + mixed(2, 2, k) + dot_product(shift, hesse(1, 1, :) + hesse(2, 2, :)) &
+      form%side(k) = mixed(1, 1, k) + mixed(2, 2, k) + dot_product(shift, hesse(1, 1, :) + hesse(2, 2, :)) &
                 + system%of_determinant(k)
     end do
   end subroutine normal_form

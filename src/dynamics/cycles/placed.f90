@@ -1,7 +1,7 @@
 !> Cycles at a place or on a line: include/kapitza/dynamics_curves.h.
 module kz_cycles_placed
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
-  use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, linearise, UNKNOWNS, FINE
+  use kz_cycles_curves, only: plane_t, cycle_t, system_t, make_system, linearise, unknowns_of, cycle_of, UNKNOWNS, FINE
   use kz_cycles_corrector, only: newton
   implicit none
   private
@@ -20,43 +20,41 @@ contains
     outside = any(at < plane%low .or. at > plane%high)
   end function outside
 
-  function at_place(plane, kind, y, numbers) bind(C, name='kz_curve_solve') result(found)
+  function at_place(plane, cycle) bind(C, name='kz_cycle_solve') result(found)
     type(plane_t), intent(in) :: plane
-    type(curve_kind_t), intent(in) :: kind
-    real(dp), intent(inout) :: y(2*kind%points + 2)
-    real(dp), intent(out), optional :: numbers(2)
+    type(cycle_t), intent(inout) :: cycle
     integer(c_int32_t) :: found
     real(dp), parameter :: LONGEST = 0.5_dp
-    real(dp) :: residual(UNKNOWNS), matrix(UNKNOWNS, UNKNOWNS)
+    real(dp) :: y(UNKNOWNS), residual(UNKNOWNS), matrix(UNKNOWNS, UNKNOWNS)
     type(system_t) :: system
     integer :: iterations
     logical :: exists
 
-    call make_system(plane, kind, 0, .false., system)
+    call make_system(plane, cycle%kind, 0, .false., system)
+    y = unknowns_of(cycle)
     call newton(system, 25, LONGEST, 1e-12_dp, y, iterations)
-    found = merge(1, 0, iterations > 0)
-    if (.not. present(numbers)) return
-    numbers = 0
-    if (found == 0) return
-    call linearise(system, FINE, 1, y, residual, matrix, exists)
-    numbers = [system%trace, system%determinant]
-    if (.not. exists) found = 0
+    exists = iterations > 0
+    if (exists) call linearise(system, FINE, 1, y, residual, matrix, exists)
+    found = merge(1, 0, exists)
+    if (exists) cycle = cycle_of(system, y)
   end function at_place
 
-  function on_line(plane, kind, y, along) bind(C, name='kz_curve_locate') result(found)
+  function on_line(plane, cycle, along) bind(C, name='kz_cycle_locate') result(found)
     type(plane_t), intent(in) :: plane
-    type(curve_kind_t), intent(in) :: kind
-    real(dp), intent(inout) :: y(2*kind%points + 2)
+    type(cycle_t), intent(inout) :: cycle
     real(dp), intent(in) :: along(2)
     integer(c_int32_t) :: found
     real(dp), parameter :: LONGEST = 0.3_dp
+    real(dp) :: y(UNKNOWNS)
     type(system_t) :: system
     integer :: iterations
 
-    call make_system(plane, kind, 1, .true., system)
+    call make_system(plane, cycle%kind, 1, .true., system)
     system%basis(:, 1) = along
+    y = unknowns_of(cycle)
     call newton(system, 20, LONGEST, 1e-12_dp, y, iterations)
     found = merge(1, 0, iterations > 0)
+    if (found == 1) cycle = cycle_of(system, y)
   end function on_line
 
 end module kz_cycles_placed

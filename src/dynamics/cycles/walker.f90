@@ -1,7 +1,7 @@
 !> The way along a branch of cycles or a curve of bifurcations by pseudo-arclength, and what is met there.
 module kz_cycles_walker
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_cycles_normal_forms, only: normal_form
+  use kz_cycles_normal_forms, only: form_t, normal_form
   use kz_cycles_corrector, only: newton, tangent_at
   use kz_cycles_curves, only: system_t, images, inner, moved, wrapped, POINTS, UNKNOWNS, COARSE
   use kz_splitting_jets, only: TERMS
@@ -82,29 +82,29 @@ contains
     end if
   end function advance
 
-  !> Where a number changes its sign between two points of a branch or curve, by secants and bisection.
-  subroutine find_zero(walker, from, heading, at_low, at_high, which, number, found)
+  !> Finds where a number changes its sign between two points of a branch or curve, by secants and bisection; false if
+  !> Newton's method does not converge on the way.
+  function find_zero(walker, from, heading, at, which, number) result(found)
     type(walker_t), intent(inout) :: walker !< at the second point, then where the sign changes
     real(dp), intent(in) :: from(:), heading(:) !< the first point and the tangent there
-    real(dp), intent(in) :: at_low, at_high !< the number at both
+    real(dp), intent(in) :: at(2) !< the number at both
     integer, intent(in) :: which !< OF_FORM, OF_WIDTH, FOLD, FLIP
     real(dp), intent(out) :: number !< where it was found
-    logical, intent(out) :: found !< whether Newton's method converged on the way
+    logical :: found
     integer, parameter :: MOST = 40
     real(dp), parameter :: ZERO(OF_WIDTH:FLIP) = [1e-6_dp, 1e-9_dp, 1e-9_dp, 1e-9_dp]
-    real(dp) :: low, high, middle, number_low, number_high, side(2), eigenvector(2)
+    type(form_t) :: form
+    real(dp) :: place(2), numbers(2), middle
     integer :: n, i, iterations
 
     n = 2*walker%system%n
-    low = 0
-    high = distance(walker%system, walker%y, from)
-    number_low = at_low
-    number_high = at_high
-    number = at_high
+    place = [0.0_dp, distance(walker%system, walker%y, from)]
+    numbers = at
+    number = at(2)
     found = .false.
     do i = 1, MOST
-      middle = low - number_low*(high - low)/(number_high - number_low)
-      if (mod(i, 3) == 0) middle = 0.5_dp*(low + high)
+      middle = place(1) - numbers(1)*(place(2) - place(1))/(numbers(2) - numbers(1))
+      if (mod(i, 3) == 0) middle = 0.5_dp*(place(1) + place(2))
       walker%y(:n) = from(:n) + middle*heading(:n)
       walker%y(n + 1:n + 2) = from(n + 1:n + 2) + matmul(walker%system%basis(:, :walker%system%columns), &
                                                          middle*heading(n + 1:n + walker%system%columns))
@@ -113,36 +113,33 @@ contains
       if (found .and. which <= OF_FORM) &
         call tangent_at(walker%system, walker%y, heading, walker%tangent, found, walker%sharp)
       if (.not. found) return
-      if (which <= OF_FORM) call normal_form(walker%system, number, side, eigenvector)
-      if (which == OF_WIDTH) number = thinness(walker%system, number, side)
+      if (which <= OF_FORM) call normal_form(walker%system, form)
+      if (which == OF_FORM) number = form%coefficient
+      if (which == OF_WIDTH) number = thinness(walker%system, form)
       if (which == FOLD) number = 1 + walker%system%determinant - walker%system%trace
       if (which == FLIP) number = 1 + walker%system%determinant + walker%system%trace
-      if ((number > 0) .eqv. (number_low > 0)) then
-        low = middle
-        number_low = number
-      else
-        high = middle
-        number_high = number
-      end if
-      if (abs(number) < ZERO(which) .or. high - low < 1e-13_dp) return
-      if (which > OF_FORM .and. high - low < 1e-7_dp) return ! the equations of the curve find the rest
+      associate (end => merge(1, 2, (number > 0) .eqv. (numbers(1) > 0)))
+        place(end) = middle
+        numbers(end) = number
+      end associate
+      if (abs(number) < ZERO(which) .or. place(2) - place(1) < 1e-13_dp) return
+      if (which > OF_FORM .and. place(2) - place(1) < 1e-7_dp) return ! the equations of the curve find the rest
     end do
-  end subroutine find_zero
+  end function find_zero
 
   !> The logarithm of how many times narrower than THINNEST the band of attractors beside a curve is, where rounding
   !> hides it: kz_atlas_band of study/atlas.
-  pure real(dp) function thinness(system, form, side)
+  pure real(dp) function thinness(system, form)
     type(system_t), intent(in) :: system !< at a point of the curve
-    real(dp), intent(in) :: form !< normal form
-    real(dp), intent(in) :: side(2) !< a gradient by the place
+    type(form_t), intent(in) :: form
     real(dp), parameter :: THINNEST = 1e-10_dp ! sides of the plane
     real(dp) :: gradient
 
-    gradient = max(norm2(side), tiny(1.0_dp))
+    gradient = max(norm2(form%side), tiny(1.0_dp))
     associate (d => system%determinant)
       thinness = log(THINNEST*gradient/(1 + d))
       if (system%kind%multiplier > 0) &
-        thinness = log(THINNEST*max(gradient*abs(form), tiny(1.0_dp))*((1 - d)/(1 + d))**2)
+        thinness = log(THINNEST*max(gradient*abs(form%coefficient), tiny(1.0_dp))*((1 - d)/(1 + d))**2)
     end associate
   end function thinness
 

@@ -34,8 +34,9 @@ static double arrange_slope(const double *p, double s) {
   return p[1] + s * (2 * p[2] + s * 3 * p[3]);
 }
 
-static cubic cubic_of(const double *a, const double *b) {
-  const double *ta = a + KZ_ROW_TANGENT, *tb = b + KZ_ROW_TANGENT, chord[2] = {b[0] - a[0], b[1] - a[1]};
+static cubic cubic_of(const kz_curve_row *row) {
+  const double *a = row[0].at.place, *b = row[1].at.place, *ta = row[0].tangent, *tb = row[1].tangent;
+  const double chord[2] = {b[0] - a[0], b[1] - a[1]};
   const double la = hypot(ta[0], ta[1]), lb = hypot(tb[0], tb[1]), length = hypot(chord[0], chord[1]);
   const bool straight = la <= AT_CUSP || lb <= AT_CUSP || ta[0] * tb[0] + ta[1] * tb[1] < 0;
   cubic c;
@@ -86,21 +87,20 @@ static int roots_of(const double *p, double target, double *root) {
 /* End of a step that determines the side, at a point with this normal form. At a cusp a fold turns back with its side.
  * It goes straight on where its side changes at a place without a drive: from there two folds begin on either side,
  * between which a rotation is held. */
-static const double *side_of(const kz_cycle_kind *kind, const double *a, const double *b, double form) {
-  const double *ta = a + KZ_ROW_TANGENT, *tb = b + KZ_ROW_TANGENT;
-  const bool changes =
-      kind->of.multiplier > 0 && a[KZ_ROW_FORM] * b[KZ_ROW_FORM] < 0 && ta[0] * tb[0] + ta[1] * tb[1] > 0;
-  if (changes) return (form > 0) == (a[KZ_ROW_FORM] > 0) ? a : b;
-  return fabs(a[KZ_ROW_FORM]) >= fabs(b[KZ_ROW_FORM]) ? a : b;
+static const kz_curve_row *side_of(const kz_curve_row *row, double form) {
+  const double *ta = row[0].tangent, *tb = row[1].tangent, a = row[0].form.coefficient, b = row[1].form.coefficient;
+  const bool changes = row->at.kind.multiplier > 0 && a * b < 0 && ta[0] * tb[0] + ta[1] * tb[1] > 0;
+  if (changes) return (form > 0) == (a > 0) ? row : row + 1;
+  return fabs(a) >= fabs(b) ? row : row + 1;
 }
 
 /* Records the change of attractors where a step of a curve crosses the line. */
 static void arrange_cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double target, bool classes,
                           kz_atlas_crossings *crossings) {
   const kz_atlas_curve *curve = atlas->curve + number;
-  const double *a = curve->row + row * kz_atlas_width(&curve->kind), *b = a + kz_atlas_width(&curve->kind);
+  const kz_curve_row *a = curve->row + row, *b = a + 1;
   const int other = 1 - axis;
-  const cubic c = cubic_of(a, b);
+  const cubic c = cubic_of(a);
   double root[3];
   const int n = roots_of(c.p[axis], target, root);
   for (int i = 0; i < n; i++) {
@@ -110,20 +110,20 @@ static void arrange_cross(kz_atlas *atlas, int64_t number, int64_t row, int axis
           (kz_atlas_crossing){.at = cubic_value(c.p[other], root[i]), .curve = number, .row = row, .share = root[i]});
       continue;
     }
-    const double s = root[i], form = a[KZ_ROW_FORM] + s * (b[KZ_ROW_FORM] - a[KZ_ROW_FORM]);
-    const double *by = side_of(&curve->kind, a, b, form);
+    const double s = root[i], form = a->form.coefficient + s * (b->form.coefficient - a->form.coefficient);
+    const kz_curve_row *by = side_of(a, form);
     const double end = by == a ? 0 : 1;
-    /* The normal turned from the tangent, with the sign that it has where the side is known */
-    const double known =
-        -arrange_slope(c.p[1], end) * by[KZ_ROW_SIDE] + arrange_slope(c.p[0], end) * by[KZ_ROW_SIDE + 1];
+    /* Normal turned from the tangent, with the sign that it has where the side is known */
+    const double known = -arrange_slope(c.p[1], end) * by->form.side[0] + arrange_slope(c.p[0], end) * by->form.side[1];
     const double normal[2] = {-arrange_slope(c.p[1], s), arrange_slope(c.p[0], s)};
     const int change = (normal[other] > 0) == (known > 0) ? 1 : -1;
     const kz_atlas_class own = kz_atlas_class_of(&curve->kind);
     kz_pendulum pendulum;
-    const bool there = kz_atlas_pendulum(atlas->scene, a, &pendulum); /* false a little outside of the plane */
-    const double d = there ? kz_kind_determinant(&curve->kind.of, pendulum.beta) : 0;
-    const double wide[2] = {kz_atlas_band(&curve->kind, d, a[KZ_ROW_FORM], fabs(a[KZ_ROW_SIDE + other])),
-                            kz_atlas_band(&curve->kind, d, b[KZ_ROW_FORM], fabs(b[KZ_ROW_SIDE + other]))};
+    const bool there =
+        kz_atlas_pendulum(atlas->scene, a->at.place, &pendulum); /* a little outside of the plane there may be none */
+    const double d = there ? kz_kind_determinant(&curve->kind, pendulum.beta) : 0;
+    const double wide[2] = {kz_atlas_band(&curve->kind, d, a->form.coefficient, fabs(a->form.side[other])),
+                            kz_atlas_band(&curve->kind, d, b->form.coefficient, fabs(b->form.side[other]))};
     kz_atlas_crossing crossing = {.at = cubic_value(c.p[other], s),
                                   .width = exp((1 - s) * log(wide[0]) + s * log(wide[1])),
                                   .class = kz_atlas_class_number(atlas, &own),
@@ -132,7 +132,7 @@ static void arrange_cross(kz_atlas *atlas, int64_t number, int64_t row, int axis
                                   .row = row,
                                   .share = s};
     arrange_add(crossings, crossing);
-    if (curve->kind.of.multiplier > 0 || form <= 0) continue;
+    if (curve->kind.multiplier > 0 || form <= 0) continue;
     const kz_cycle_kind child = kz_child_kind(&curve->kind);
     if (kz_kind_period(&child) > atlas->scene->atlas->max_period) continue;
     const kz_atlas_class grown = kz_atlas_class_of(&child);
@@ -147,9 +147,8 @@ void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double target, bool classe
   crossings->count = 0;
   for (int64_t i = 0; i < atlas->n_curves; i++) {
     const kz_atlas_curve *curve = atlas->curve + i;
-    const int64_t width = kz_atlas_width(&curve->kind);
     for (int64_t row = 0; row + 1 < curve->n; row++) {
-      const double a = curve->row[row * width + axis], b = curve->row[(row + 1) * width + axis];
+      const double a = curve->row[row].at.place[axis], b = curve->row[row + 1].at.place[axis];
       const double beyond = fabs(b - a) + 1e-3;
       if (fmin(a, b) - beyond <= target && target <= fmax(a, b) + beyond)
         arrange_cross(atlas, i, row, axis, target, classes, crossings);
@@ -161,20 +160,14 @@ void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double target, bool classe
 }
 
 bool kz_atlas_crossing_point(const kz_atlas *atlas, int axis, double value, const kz_atlas_crossing *crossing,
-                             kz_plane_cycle *at) {
-  kz_atlas_curve *curve = atlas->curve + crossing->curve;
-  const int n = 2 * curve->kind.of.points;
-  const double along[2] = {axis == 0, axis == 1};
-  *at = (kz_plane_cycle){.kind = curve->kind};
-  for (int i = 0; i < 2 && !curve->signature; i++) kz_atlas_complete(atlas, curve, crossing->row + i);
-  kz_atlas_between(curve, crossing->row, crossing->share, at->y);
-  at->y[n + axis] = crossing->at;
-  at->y[n + 1 - axis] = value;
-  if (curve->kind.rest < 0)
-    at->kind.of.turns =
-        kz_kind_of(&atlas->plane, curve->kind.of.side, curve->kind.of.points, 1, curve->kind.of.multiplier, at->y)
-            .turns;
-  return kz_curve_locate(&atlas->plane, &at->kind.of, at->y, along) && fabs(at->y[n + axis] - crossing->at) < 1e-3;
+                             kz_cycle *at) {
+  const kz_atlas_curve *curve = atlas->curve + crossing->curve;
+  for (int i = 0; i < 2 && !curve->signature; i++) kz_atlas_complete(atlas, &curve->row[crossing->row + i].at);
+  *at = kz_atlas_between(curve->row + crossing->row, crossing->share);
+  at->place[axis] = crossing->at, at->place[1 - axis] = value;
+  if (!curve->kind.rest) kz_cycle_close(&atlas->plane, at);
+  return kz_cycle_locate(&atlas->plane, at, (double[]){axis == 0, axis == 1}) &&
+         fabs(at->place[axis] - crossing->at) < 1e-3;
 }
 
 double kz_atlas_floor(const kz_atlas *atlas) {

@@ -41,32 +41,34 @@ static kz_cycle_kind kind_of(const columns *c, int64_t i) {
   const int kind = (int)c->of[KIND][i], period = (int)c->of[PERIOD][i],
             inverted = c->of[CENTRE][i] == KZ_ABOUT_INVERTED;
   const bool symmetric = c->of[SYMMETRIC][i] != 0;
-  if (kind == KZ_CURVE_REST_SWINGS) return (kz_cycle_kind){{1, 1, -1, 0, 0}, inverted};
-  if (kind == KZ_CURVE_REST_LEANS) return (kz_cycle_kind){{-1, 1, -1, inverted, 0}, inverted};
-  return (kz_cycle_kind){{symmetric ? -1 : 1, symmetric ? (period + 1) / 2 : period, kind == KZ_CURVE_FOLD ? 1 : -1,
-                          symmetric ? inverted : (int32_t)c->of[WINDING][i], 0, symmetric && period % 2},
-                         -1};
+  if (kind == KZ_CURVE_REST_SWINGS) return (kz_cycle_kind){1, 1, -1, 0, 0, 0, 1 + inverted};
+  if (kind == KZ_CURVE_REST_LEANS) return (kz_cycle_kind){-1, 1, -1, inverted, 0, 0, 1 + inverted};
+  return (kz_cycle_kind){.side = symmetric ? -1 : 1,
+                         .points = symmetric ? (period + 1) / 2 : period,
+                         .multiplier = kind == KZ_CURVE_FOLD ? 1 : -1,
+                         .turns = symmetric ? inverted : (int32_t)c->of[WINDING][i],
+                         .half = symmetric && period % 2};
 }
 
 /* Reads the first point of each cycle, from which the others are completed. */
 static kz_status read_rows(const kz_atlas *atlas, const columns *points, int64_t first, int64_t n_points,
                            kz_atlas_curve *curve) {
   const kz_axis *axis[] = {&atlas->scene->atlas->x.values, &atlas->scene->atlas->y.values};
-  const int64_t width = kz_atlas_width(&curve->kind);
-  if (curve->kind.of.points < 1 || curve->kind.of.points > KZ_CURVE_POINTS || first < 0 || curve->n < 0 ||
-      first + curve->n > n_points)
+  const int32_t cycle_points = curve->kind.points;
+  if (cycle_points < 1 || cycle_points > KZ_CURVE_POINTS || first < 0 || curve->n < 0 || first + curve->n > n_points)
     return kz_fail(KZ_REFUSED, "the atlas of the result file is damaged");
-  curve->row = kz_calloc((size_t)(curve->n * width + 1), sizeof *curve->row);
+  curve->row = kz_calloc((size_t)curve->n + 1, sizeof *curve->row);
   for (int64_t i = 0; i < curve->n; i++) {
-    double *row = curve->row + i * width;
+    kz_curve_row *row = curve->row + i;
+    row->at.kind = curve->kind;
     for (int c = 0; c < 2; c++) {
       const int of = kz_atlas_axis(atlas, c);
-      row[KZ_ROW_PLACE + c] = (points->of[X + of][first + i] - axis[c]->min) / (axis[c]->max - axis[c]->min);
-      row[KZ_ROW_TANGENT + c] = points->of[TANGENT_X + of][first + i];
-      row[KZ_ROW_SIDE + c] = points->of[SIDE_X + of][first + i];
-      row[KZ_ROW_POINTS + c] = points->of[THETA + c][first + i];
+      row->at.place[c] = (points->of[X + of][first + i] - axis[c]->min) / (axis[c]->max - axis[c]->min);
+      row->tangent[c] = points->of[TANGENT_X + of][first + i];
+      row->form.side[c] = points->of[SIDE_X + of][first + i];
+      row->at.point[0][c] = points->of[THETA + c][first + i];
     }
-    row[KZ_ROW_FORM] = points->of[FORM][first + i];
+    row->form.coefficient = points->of[FORM][first + i];
   }
   return KZ_OK;
 }

@@ -17,34 +17,35 @@ enum { CUSP, DEGENERATE_FLIP, DEGENERATE_PITCHFORK };
 static const char *const WORDS[KZ_CURVE_KINDS] = {"fold", "period doubling", "symmetry breaking", "swings grow",
                                                   "leans over"};
 
-static int kind_of(const kz_atlas_curve *curve) {
-  if (curve->kind.rest >= 0) return curve->kind.of.side > 0 ? KZ_CURVE_REST_SWINGS : KZ_CURVE_REST_LEANS;
-  if (curve->kind.of.multiplier > 0) return KZ_CURVE_FOLD;
-  return curve->kind.of.side > 0 ? KZ_CURVE_PERIOD_DOUBLING : KZ_CURVE_SYMMETRY_BREAKING;
+static int kind_of(const kz_cycle_kind *kind) {
+  if (kind->rest) return kind->side > 0 ? KZ_CURVE_REST_SWINGS : KZ_CURVE_REST_LEANS;
+  if (kind->multiplier > 0) return KZ_CURVE_FOLD;
+  return kind->side > 0 ? KZ_CURVE_PERIOD_DOUBLING : KZ_CURVE_SYMMETRY_BREAKING;
 }
 
 /* Centre of a cycle that does not turn: the sign of the mean cosine of its strobe points. */
 static int centre_of(const kz_atlas *atlas, const kz_atlas_curve *curve) {
-  const kz_curve_kind of = curve->kind.of;
+  const kz_cycle_kind *kind = &curve->kind;
   double cosine = 0;
-  if (curve->kind.rest >= 0) return curve->kind.rest ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN;
-  if (of.side < 0) return of.turns ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN;
-  if (of.turns != 0) return KZ_ROTATING;
+  if (kind->rest) return kind->rest == 2 ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN;
+  if (kind->side < 0) return kind->turns ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN;
+  if (kind->turns != 0) return KZ_ROTATING;
   if (!kz_atlas_paired(atlas)) return KZ_ABOUT_NEITHER;
-  for (int i = 0; i < of.points; i++) cosine += cos(curve->row[KZ_ROW_POINTS + 2 * i]);
+  for (int i = 0; i < kind->points; i++) cosine += cos(curve->row->at.point[i][0]);
   return cosine < 0 ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN;
 }
 
-static int64_t winding_of(const kz_atlas_curve *curve) {
-  return curve->kind.of.side > 0 && curve->kind.rest < 0 ? curve->kind.of.turns : 0;
+static int64_t winding_of(const kz_cycle_kind *kind) {
+  return kind->side > 0 && !kind->rest ? kind->turns : 0;
 }
 
 /* The points of all curves, one after the other. */
 typedef struct {
   int64_t n, n_special;
-  int64_t *first;                /* [curves] */
-  const double **row, **special; /* [n], [n_special] */
-  int64_t *curve, *on;           /* their curves */
+  int64_t *first; /* [curves] */
+  const kz_curve_row **row;
+  const kz_cycle **special; /* [n], [n_special] */
+  int64_t *on;              /* the curves of the latter */
 } listing;
 
 static void list_points(const kz_atlas *atlas, listing *l) {
@@ -53,18 +54,14 @@ static void list_points(const kz_atlas *atlas, listing *l) {
   *l = (listing){.first = kz_calloc((size_t)atlas->n_curves + 1, sizeof *l->first),
                  .row = kz_calloc((size_t)n + 1, sizeof *l->row),
                  .special = kz_calloc((size_t)specials + 1, sizeof *l->special),
-                 .curve = kz_calloc((size_t)n + 1, sizeof *l->curve),
                  .on = kz_calloc((size_t)specials + 1, sizeof *l->on)};
   for (int64_t i = 0; i < atlas->n_curves; i++) {
     const kz_atlas_curve *curve = atlas->curve + i;
     l->first[i] = l->n;
-    for (int64_t j = 0; j < curve->n; j++) {
-      l->curve[l->n] = i;
-      l->row[l->n++] = curve->row + j * kz_atlas_width(&curve->kind);
-    }
+    for (int64_t j = 0; j < curve->n; j++) l->row[l->n++] = curve->row + j;
     for (int64_t j = 0; j < curve->n_special; j++) {
       l->on[l->n_special] = i;
-      l->special[l->n_special++] = curve->special + j * (KZ_SPECIAL_POINTS + 2 * curve->kind.of.points);
+      l->special[l->n_special++] = curve->special + j;
     }
   }
 }
@@ -73,7 +70,6 @@ static void listing_free(listing *l) {
   free(l->first);
   free(l->row);
   free(l->special);
-  free(l->curve);
   free(l->on);
 }
 
@@ -99,7 +95,7 @@ static void name_curve(const kz_atlas *atlas, int64_t i, char *text) {
   const kz_atlas_class class = kz_atlas_class_of(&atlas->curve[i].kind);
   char name[KZ_NAME_LENGTH];
   kz_atlas_class_name(atlas, &class, name);
-  snprintf(text, 2 * KZ_NAME_LENGTH, "%s: %s", name, WORDS[kind_of(atlas->curve + i)]);
+  snprintf(text, 2 * KZ_NAME_LENGTH, "%s: %s", name, WORDS[kind_of(&atlas->curve[i].kind)]);
 }
 
 static void name_class(const kz_atlas *atlas, int64_t i, char *text) {
@@ -109,11 +105,11 @@ static void name_class(const kz_atlas *atlas, int64_t i, char *text) {
 static kz_status write_curves(const kz_atlas *atlas, const listing *l, kz_store *store) {
   const kz_atlas_curve *c = atlas->curve;
   KZ_TRY(kz_store_dimension(store, GROUP, "curve", atlas->n_curves, NULL));
-  COLUMN(int8_t, "curve_kind", atlas->n_curves, kind_of(c + i));
+  COLUMN(int8_t, "curve_kind", atlas->n_curves, kind_of(&c[i].kind));
   COLUMN(int16_t, "curve_period", atlas->n_curves, kz_kind_period(&c[i].kind));
-  COLUMN(int32_t, "curve_winding", atlas->n_curves, winding_of(c + i));
+  COLUMN(int32_t, "curve_winding", atlas->n_curves, winding_of(&c[i].kind));
   COLUMN(int8_t, "curve_centre", atlas->n_curves, centre_of(atlas, c + i));
-  COLUMN(int8_t, "curve_symmetric", atlas->n_curves, c[i].kind.rest >= 0 || c[i].kind.of.side < 0);
+  COLUMN(int8_t, "curve_symmetric", atlas->n_curves, c[i].kind.rest || c[i].kind.side < 0);
   COLUMN(int32_t, "curve_first", atlas->n_curves, l->first[i]);
   COLUMN(int32_t, "curve_points", atlas->n_curves, c[i].n);
   COLUMN(int8_t, "curve_closed", atlas->n_curves, c[i].ending[1] == KZ_TRACE_CLOSED);
@@ -123,23 +119,23 @@ static kz_status write_curves(const kz_atlas *atlas, const listing *l, kz_store 
 
 static kz_status write_points(const kz_atlas *atlas, const listing *l, kz_store *store) {
   KZ_TRY(kz_store_dimension(store, GROUP, "point", l->n, NULL));
-  COLUMN(double, "x", l->n, atlas_write_at(atlas, l->row[i], 0));
-  COLUMN(double, "y", l->n, atlas_write_at(atlas, l->row[i], 1));
-  COLUMN(double, "strobe_theta", l->n, remainder(l->row[i][KZ_ROW_POINTS], 2 * M_PI));
-  COLUMN(double, "strobe_velocity", l->n, l->row[i][KZ_ROW_POINTS + 1]);
-  COLUMN(double, "normal_form", l->n, l->row[i][KZ_ROW_FORM]);
-  COLUMN(double, "side_x", l->n, l->row[i][KZ_ROW_SIDE + kz_atlas_axis(atlas, 0)]);
-  COLUMN(double, "side_y", l->n, l->row[i][KZ_ROW_SIDE + kz_atlas_axis(atlas, 1)]);
-  COLUMN(double, "tangent_x", l->n, l->row[i][KZ_ROW_TANGENT + kz_atlas_axis(atlas, 0)]);
-  COLUMN(double, "tangent_y", l->n, l->row[i][KZ_ROW_TANGENT + kz_atlas_axis(atlas, 1)]);
-  COLUMN(int8_t, "supercritical", l->n, atlas->curve[l->curve[i]].kind.of.multiplier < 0 && l->row[i][KZ_ROW_FORM] > 0);
+  COLUMN(double, "x", l->n, atlas_write_at(atlas, l->row[i]->at.place, 0));
+  COLUMN(double, "y", l->n, atlas_write_at(atlas, l->row[i]->at.place, 1));
+  COLUMN(double, "strobe_theta", l->n, remainder(l->row[i]->at.point[0][0], 2 * M_PI));
+  COLUMN(double, "strobe_velocity", l->n, l->row[i]->at.point[0][1]);
+  COLUMN(double, "normal_form", l->n, l->row[i]->form.coefficient);
+  COLUMN(double, "side_x", l->n, l->row[i]->form.side[kz_atlas_axis(atlas, 0)]);
+  COLUMN(double, "side_y", l->n, l->row[i]->form.side[kz_atlas_axis(atlas, 1)]);
+  COLUMN(double, "tangent_x", l->n, l->row[i]->tangent[kz_atlas_axis(atlas, 0)]);
+  COLUMN(double, "tangent_y", l->n, l->row[i]->tangent[kz_atlas_axis(atlas, 1)]);
+  COLUMN(int8_t, "supercritical", l->n, l->row[i]->at.kind.multiplier < 0 && l->row[i]->form.coefficient > 0);
   KZ_TRY(kz_store_dimension(store, GROUP, "special", l->n_special, NULL));
-  COLUMN(double, "special_x", l->n_special, atlas_write_at(atlas, l->special[i] + 1, 0));
-  COLUMN(double, "special_y", l->n_special, atlas_write_at(atlas, l->special[i] + 1, 1));
+  COLUMN(double, "special_x", l->n_special, atlas_write_at(atlas, l->special[i]->place, 0));
+  COLUMN(double, "special_y", l->n_special, atlas_write_at(atlas, l->special[i]->place, 1));
   COLUMN(int8_t, "special_kind", l->n_special,
-         l->special[i][0] < 2                                           ? CUSP
-         : kind_of(atlas->curve + l->on[i]) == KZ_CURVE_PERIOD_DOUBLING ? DEGENERATE_FLIP
-                                                                        : DEGENERATE_PITCHFORK);
+         l->special[i]->kind.multiplier > 0                          ? CUSP
+         : kind_of(&l->special[i]->kind) == KZ_CURVE_PERIOD_DOUBLING ? DEGENERATE_FLIP
+                                                                     : DEGENERATE_PITCHFORK);
   COLUMN(int32_t, "special_curve", l->n_special, l->on[i]);
   return KZ_OK;
 }
@@ -229,7 +225,7 @@ static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *
 static void atlas_write_print(const kz_atlas *atlas, const kz_atlas_raster *r, const listing *l, FILE *summary) {
   const int32_t parameter[] = {atlas->scene->atlas->x.parameter, atlas->scene->atlas->y.parameter};
   int64_t kinds[KZ_CURVE_KINDS] = {0}, most = 0;
-  for (int64_t i = 0; i < atlas->n_curves; i++) kinds[kind_of(atlas->curve + i)]++;
+  for (int64_t i = 0; i < atlas->n_curves; i++) kinds[kind_of(&atlas->curve[i].kind)]++;
   for (int64_t i = 0; i < r->points * r->points; i++)
     if (r->count[i] > most) most = r->count[i];
   fprintf(summary, "atlas: %s x %s, cycles of up to %" PRId64 " periods: %" PRId64 " curves (%" PRId64 " points)\n",

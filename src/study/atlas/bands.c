@@ -14,7 +14,7 @@ static const double NARROW = 1e-5, REACH = 4, BLURRED = 1e-5;
  * gradient is 1/(1 - D)^2. So both edges give the width. */
 double kz_atlas_band(const kz_cycle_kind *kind, double d, double form, double gradient) {
   const double ratio = (1 + d) / (1 - d);
-  return kind->of.multiplier > 0 ? ratio * ratio / (gradient * fabs(form)) : (1 + d) / gradient;
+  return kind->multiplier > 0 ? ratio * ratio / (gradient * fabs(form)) : (1 + d) / gradient;
 }
 
 /* The other edge of a band: an unpaired one on its attractors' side, or a little beyond; -1 = none. */

@@ -42,23 +42,12 @@ static kz_saddles_plan window_of(const kz_atlas *atlas, const kz_pendulum *pendu
                            .max_period = atlas->scene->atlas->max_period};
 }
 
-static bool has_cycle(const kz_atlas *atlas, const double place[2], const kz_atlas_seeds *cycles, int32_t period,
-                      const double *state) {
-  double at_image[2];
-  const double *image = kz_atlas_image_state(atlas, place, state, at_image) ? at_image : NULL;
-  for (int64_t i = 0; i < cycles->count; i++)
-    if (kz_kind_period(&cycles->list[i].kind) == period && kz_atlas_same(cycles->list + i, state, image, ONE))
-      return true;
-  return false;
-}
-
 /* A cycle of kz_dynamics_search_line joins those of a tile, unless it is there already. */
 static void join_cycle(const kz_atlas *atlas, const double place[2], const double *found, kz_atlas_seeds *cycles) {
   const int n = (int)found[0];
-  kz_plane_cycle cycle = {.kind = {{1, n, 0, 0, 0}, -1}};
-  for (int i = 0; i < n; i++) cycle.y[2 * i] = M_PI * found[2 + 2 * i], cycle.y[2 * i + 1] = found[3 + 2 * i];
-  memcpy(cycle.y + 2 * n, place, 2 * sizeof *cycle.y);
-  if (!has_cycle(atlas, place, cycles, n, cycle.y)) kz_atlas_put(cycles, &cycle);
+  kz_cycle cycle = {.kind = {.side = 1, .points = n}, .place = {place[0], place[1]}};
+  for (int i = 0; i < n; i++) cycle.point[i][0] = M_PI * found[2 + 2 * i], cycle.point[i][1] = found[3 + 2 * i];
+  if (!kz_atlas_has(atlas, cycles->count, cycles->list, &cycle, ONE)) kz_atlas_put(cycles, &cycle);
 }
 
 /* The cycles along one line of starts. */
@@ -105,8 +94,7 @@ static void list_cycles(census *c, const kz_atlas_bag *found, int64_t *dropped) 
       const kz_atlas_seeds some = kz_atlas_seeds_in(found->record[tile]);
       *dropped += some.dropped;
       for (int64_t i = 0; i < some.count; i++)
-        if (!has_cycle(c->atlas, c->probe[place].place, &all, kz_kind_period(&some.list[i].kind), some.list[i].y))
-          kz_atlas_put(&all, some.list + i);
+        if (!kz_atlas_has(c->atlas, all.count, all.list, some.list + i, ONE)) kz_atlas_put(&all, some.list + i);
     }
     for (int64_t i = 0; i < all.count; i++) {
       if (i % CYCLES_OF_A_TILE == 0) {
@@ -130,35 +118,32 @@ static kz_status births_tile(void *context, int64_t tile, void *record) {
   const census *c = context;
   KZ_AUTOFREE_BY(kz_atlas_seeds_free) kz_atlas_seeds births = {0};
   for (int64_t i = 0; i < c->tile[tile].count; i++) {
-    const kz_plane_cycle *found = c->tile[tile].list + i;
-    const int n = found->kind.of.points;
-    const bool is_raw = found->kind.of.side > 0 && found->kind.rest < 0; /* the search does not look at symmetries */
-    kz_plane_cycle cycle = *found;
-    if (!is_raw || kz_atlas_identify(c->atlas, found->y + 2 * n, found->y, n, STEEPEST[0], &cycle))
-      kz_atlas_explore_first(c->atlas, &cycle, &births);
+    kz_cycle cycle = c->tile[tile].list[i];
+    const bool is_raw = cycle.kind.side > 0 && !cycle.kind.rest; /* the search does not look at symmetries */
+    if (!is_raw || kz_atlas_identify(c->atlas, &cycle, STEEPEST[0])) kz_atlas_explore_first(c->atlas, &cycle, &births);
   }
   kz_atlas_put_seeds(&births, record);
   return KZ_OK;
 }
 
-double kz_atlas_band_at(const kz_atlas *atlas, const kz_plane_cycle *at) {
-  double form, side[2], vector[2];
+double kz_atlas_band_at(const kz_atlas *atlas, const kz_cycle *at) {
+  kz_normal_form form;
   kz_pendulum pendulum;
-  if (!kz_atlas_pendulum(atlas->scene, at->y + 2 * at->kind.of.points, &pendulum) ||
-      !kz_curve_form(&atlas->plane, &at->kind.of, at->y, &form, side, vector))
-    return 0;
-  return kz_atlas_band(&at->kind, kz_kind_determinant(&at->kind.of, pendulum.beta), form, hypot(side[0], side[1]));
+  if (!kz_atlas_pendulum(atlas->scene, at->place, &pendulum) || !kz_cycle_form(&atlas->plane, at, &form)) return 0;
+  return kz_atlas_band(&at->kind, kz_kind_determinant(&at->kind, pendulum.beta), form.coefficient,
+                       hypot(form.side[0], form.side[1]));
 }
 
 double kz_atlas_widest(const kz_atlas *atlas, const kz_atlas_curve *curve) {
   double widest = 0;
   kz_pendulum pendulum;
-  for (int64_t i = 0; i < curve->n; i++) {
-    const double *row = curve->row + i * kz_atlas_width(&curve->kind), *side = row + KZ_ROW_SIDE;
-    if (!(row[0] >= 0 && row[0] <= 1 && row[1] >= 0 && row[1] <= 1) || !kz_atlas_pendulum(atlas->scene, row, &pendulum))
+  for (const kz_curve_row *row = curve->row; row < curve->row + curve->n; row++) {
+    const double *place = row->at.place, *side = row->form.side;
+    if (!(place[0] >= 0 && place[0] <= 1 && place[1] >= 0 && place[1] <= 1) ||
+        !kz_atlas_pendulum(atlas->scene, place, &pendulum))
       continue;
-    const double d = kz_kind_determinant(&curve->kind.of, pendulum.beta);
-    widest = fmax(widest, kz_atlas_band(&curve->kind, d, row[KZ_ROW_FORM], hypot(side[0], side[1])));
+    const double d = kz_kind_determinant(&curve->kind, pendulum.beta);
+    widest = fmax(widest, kz_atlas_band(&curve->kind, d, row->form.coefficient, hypot(side[0], side[1])));
   }
   return fmin(widest, 1);
 }

@@ -5,11 +5,11 @@
 
 /* Writes a cycle that is of a shorter period, or of more symmetry, than its kind as what it is; false if it is of its
  * kind. near: how far points lie apart that are one, rad. */
-bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_cycle_kind *kind, double *y);
+bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_cycle *cycle);
 /* Adds a seed of a curve (multiplier 1 or -1) or a cycle (0) in its canonical form; false if it is of no interest: a
  * longer period than wanted, outside of the plane. */
-bool kz_atlas_add(const kz_atlas *atlas, kz_cycle_kind kind, const double *y, kz_atlas_seeds *seeds);
-void kz_atlas_put(kz_atlas_seeds *seeds, const kz_plane_cycle *seed); /* as it is */
+bool kz_atlas_add(const kz_atlas *atlas, const kz_cycle *cycle, kz_atlas_seeds *seeds);
+void kz_atlas_put(kz_atlas_seeds *seeds, const kz_cycle *seed); /* as it is */
 void kz_atlas_seeds_free(kz_atlas_seeds *seeds);
 /* The class of its attractors, its description in files and catalogues, equality with a given class, its name. */
 kz_atlas_class kz_atlas_class_of(const kz_cycle_kind *kind);
@@ -28,14 +28,15 @@ int32_t kz_atlas_class_number(kz_atlas *atlas, const kz_atlas_class *class);
 static inline double kz_atlas_apart(const double *a, const double *b, double side) {
   return hypot(remainder(a[0] - side * b[0], 2 * M_PI), a[1] - side * b[1]);
 }
-/* Image of a state at a place: (-theta, -v), or half a period later. False where no image of a motion is one. */
-bool kz_atlas_image_state(const kz_atlas *atlas, const double place[2], const double *state, double image[2]);
-/* The points of a cycle in the order of time, also those that its kind leaves out as images of others: point [2
- * KZ_CURVE_POINTS][2]; returns how many, 0 where an orbit cannot be followed. */
-int kz_atlas_points(const kz_atlas *atlas, const kz_cycle_kind *kind, const double place[2], const double *y,
-                    double *point);
-/* Whether a state is within `near` rad of a point of a cycle or its image; image: of the state, NULL = none. */
-bool kz_atlas_same(const kz_plane_cycle *cycle, const double *state, const double *image, double near);
+/* The image of a state at a place: (-theta, -v), or that of the state half a period later. False where no image of a
+ * motion is a motion. */
+bool kz_atlas_image_state(const kz_atlas *atlas, const double place[2], const double state[2], double image[2]);
+/* The points of a cycle in the order of time, also those that its kind leaves out as images of others: point
+ * [2 KZ_CURVE_POINTS]; returns how many, 0 where an orbit cannot be followed. */
+int kz_atlas_points(const kz_atlas *atlas, const kz_cycle *cycle, double (*point)[2]);
+/* Whether a cycle of this one's period, of a list of n at its place, has its first point or that of its image within
+ * `near` rad. */
+bool kz_atlas_has(const kz_atlas *atlas, int64_t n, const kz_cycle *list, const kz_cycle *cycle, double near);
 /* Whether each motion has an image: then a cycle is its own image or one of two. */
 static inline bool kz_atlas_paired(const kz_atlas *atlas) {
   return atlas->plane.mirrored || atlas->plane.half_period;

@@ -21,7 +21,7 @@ static const double OFFSET = 0.4142;
 typedef struct {
   kz_atlas *atlas;
   int64_t n;
-  kz_plane_cycle *seed;
+  kz_cycle *seed;
 } tracing;
 
 static kz_status trace_tile(void *context, int64_t tile, void *record) {
@@ -39,7 +39,7 @@ static void next_seeds(kz_atlas *atlas, tracing *t) {
   int64_t left = 0;
   t->n = 0;
   for (int64_t i = 0; i < pending->count; i++) {
-    const kz_plane_cycle seed = pending->list[i];
+    const kz_cycle seed = pending->list[i];
     bool waits = false;
     if (kz_atlas_known(atlas, &seed) >= 0) continue;
     for (int64_t j = 0; j < t->n && !waits; j++) waits = !memcmp(&t->seed[j].kind, &seed.kind, sizeof seed.kind);
@@ -59,7 +59,7 @@ static int refusal_of(int32_t ending) {
 }
 
 static kz_status trace_pending(kz_atlas *atlas, const kz_run *run) {
-  KZ_AUTOFREE kz_plane_cycle *seed = kz_malloc((size_t)(atlas->pending.count + 1) * sizeof *seed);
+  KZ_AUTOFREE kz_cycle *seed = kz_malloc((size_t)(atlas->pending.count + 1) * sizeof *seed);
   tracing t = {.atlas = atlas, .seed = seed};
   for (next_seeds(atlas, &t); t.n > 0; next_seeds(atlas, &t)) {
     KZ_AUTOFREE_BY(kz_atlas_bag_free) kz_atlas_bag traced = {0};
@@ -95,13 +95,12 @@ static double line_at(const kz_atlas *atlas, int64_t line) {
 
 /* Whether a curve crosses two lines. */
 static bool crosses_lines(const kz_atlas *atlas, const kz_atlas_curve *curve) {
-  const int64_t width = kz_atlas_width(&curve->kind);
   int crossed = 0;
   for (int axis = 0; axis < 2; axis++) {
     double low = 1, high = 0;
     for (int64_t row = 0; row < curve->n; row++) {
-      low = fmin(low, curve->row[row * width + axis]);
-      high = fmax(high, curve->row[row * width + axis]);
+      low = fmin(low, curve->row[row].at.place[axis]);
+      high = fmax(high, curve->row[row].at.place[axis]);
     }
     for (int64_t line = 0; line < lines_of(atlas); line++)
       crossed += low < line_at(atlas, line) && line_at(atlas, line) < high;
@@ -122,8 +121,8 @@ static kz_status explore_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-void kz_atlas_await(kz_atlas *atlas, const kz_plane_cycle *seed) {
-  if (kz_atlas_known(atlas, seed) < 0) kz_atlas_add(atlas, seed->kind, seed->y, &atlas->pending);
+void kz_atlas_await(kz_atlas *atlas, const kz_cycle *seed) {
+  if (kz_atlas_known(atlas, seed) < 0) kz_atlas_add(atlas, seed, &atlas->pending);
 }
 
 static void await_all(kz_atlas *atlas, const kz_atlas_bag *found) {

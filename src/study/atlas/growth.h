@@ -8,7 +8,7 @@ kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run);
 /* Follows all branches along n columns, and traces and explores the curves that come of them. Collective. */
 kz_status kz_atlas_explore_columns(kz_atlas *atlas, const kz_run *run, int64_t n, const double *x);
 /* A seed waits to be traced unless it lies on a known curve. */
-void kz_atlas_await(kz_atlas *atlas, const kz_plane_cycle *seed);
+void kz_atlas_await(kz_atlas *atlas, const kz_cycle *seed);
 /* Runs all stages. Collective. */
 kz_status kz_atlas_search(kz_atlas *atlas, const kz_run *run);
 

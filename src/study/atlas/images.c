@@ -13,47 +13,40 @@ static const double NEAR = 1e-3, EDGE = 1e-6;
 /* The kind of the image at -k. */
 static kz_cycle_kind image_of(const kz_cycle_kind *kind) {
   kz_cycle_kind image = *kind;
-  if (kind->rest >= 0) image.rest = 1 - kind->rest;
-  if (kind->of.side < 0) image.of.turns = 1 - kind->of.turns;
+  if (kind->rest) image.rest = 3 - kind->rest;
+  if (kind->side < 0) image.turns = 1 - kind->turns;
   return image;
 }
 
-/* The point of a curve that Newton's method finds along an axis from the cycle `from` at a place becomes a seed. */
-static void add_beside(const kz_atlas *atlas, const kz_cycle_kind *kind, const double *from, const double place[2],
-                       kz_atlas_seeds *seeds) {
-  const int n = 2 * kind->of.points;
+/* The point of a curve that Newton's method finds along an axis from a cycle becomes a seed. */
+static void add_beside(const kz_atlas *atlas, const kz_cycle *from, kz_atlas_seeds *seeds) {
   for (int axis = 0; axis < 2; axis++) {
-    const double along[2] = {axis == 0, axis == 1};
-    double y[KZ_ATLAS_UNKNOWNS];
-    memcpy(y, from, (size_t)n * sizeof *y);
-    memcpy(y + n, place, 2 * sizeof *y);
-    if (kz_curve_locate(&atlas->plane, &kind->of, y, along) && kz_atlas_add(atlas, *kind, y, seeds)) return;
+    kz_cycle at = *from;
+    if (kz_cycle_locate(&atlas->plane, &at, (double[]){axis == 0, axis == 1}) && kz_atlas_add(atlas, &at, seeds))
+      return;
   }
 }
 
-/* Seeds from each point's own image: an orbit from one point would lose the digits by which the cycle repels. */
-void kz_atlas_explore_image(const kz_atlas *atlas, const kz_cycle_kind *kind, const double *at, kz_atlas_seeds *seeds) {
-  const int n = kind->of.points;
-  const kz_cycle_kind image = image_of(kind);
-  const double half_turn = M_PI * (kind->of.side < 0 ? image.of.turns - kind->of.turns : 1);
-  double y[KZ_ATLAS_UNKNOWNS], place[2];
-  if (!atlas->turned || kind->rest >= 0 || !kz_atlas_image(atlas, at + 2 * n, place)) return;
-  for (int i = 0; i < n; i++) {
-    double state[4] = {at[2 * i], at[2 * i + 1]};
-    if (!kz_curve_orbit(&atlas->plane, at + 2 * n, 1, 1, state)) return;
-    y[2 * i] = state[2] + half_turn, y[2 * i + 1] = state[3];
+/* Each point of the cycle has its own image: an orbit from one of them would lose the digits by which the cycle repels.
+ */
+void kz_atlas_explore_image(const kz_atlas *atlas, const kz_cycle *at, kz_atlas_seeds *seeds) {
+  kz_cycle image = {.kind = image_of(&at->kind)};
+  const double half_turn = M_PI * (at->kind.side < 0 ? image.kind.turns - at->kind.turns : 1);
+  if (!atlas->turned || at->kind.rest || !kz_atlas_image(atlas, at->place, image.place)) return;
+  for (int i = 0; i < at->kind.points; i++) {
+    double state[4] = {at->point[i][0], at->point[i][1]};
+    if (!kz_curve_orbit(&atlas->plane, at->place, 1, 1, state)) return;
+    image.point[i][0] = state[2] + half_turn, image.point[i][1] = state[3];
   }
-  add_beside(atlas, &image, y, place, seeds);
+  add_beside(atlas, &image, seeds);
 }
 
-void kz_atlas_explore_mirrored(const kz_atlas *atlas, const kz_cycle_kind *kind, const double *at,
-                               kz_atlas_seeds *seeds) {
-  const int n = 2 * kind->of.points;
-  kz_cycle_kind image = *kind;
-  double y[KZ_ATLAS_UNKNOWNS];
-  image.of.turns = -kind->of.turns;
-  for (int i = 0; i < n; i++) y[i] = -at[i];
-  add_beside(atlas, &image, y, at + n, seeds);
+void kz_atlas_explore_mirrored(const kz_atlas *atlas, const kz_cycle *at, kz_atlas_seeds *seeds) {
+  kz_cycle image = *at;
+  image.kind.turns = -at->kind.turns;
+  for (int i = 0; i < at->kind.points; i++)
+    for (int c = 0; c < 2; c++) image.point[i][c] = -at->point[i][c];
+  add_beside(atlas, &image, seeds);
 }
 
 /* Whether a line has a crossing with a curve of a kind at a value. */
@@ -72,13 +65,13 @@ static void images_compare(kz_atlas *atlas, int axis, double value, const kz_atl
   for (int64_t i = 0; i < here->count; i++) {
     const kz_atlas_crossing *crossing = here->list + i;
     const kz_cycle_kind *kind = &atlas->curve[crossing->curve].kind, image = image_of(kind);
-    kz_plane_cycle at;
+    kz_cycle at;
     if (crossing->at < EDGE || crossing->at > 1 - EDGE) continue;
     atlas->compared++;
     if (images_has(atlas, there, &image, crossing->at)) continue;
     atlas->alone++;
     if (kz_atlas_crossing_point(atlas, 1 - axis, value, crossing, &at))
-      kz_atlas_explore_image(atlas, &at.kind, at.y, &atlas->pending);
+      kz_atlas_explore_image(atlas, &at, &atlas->pending);
   }
 }
 

@@ -5,7 +5,7 @@
 #include "branch.h"
 
 static void complete_points(const kz_atlas *atlas, kz_atlas_curve *curve) {
-  for (int64_t i = 0; i < curve->n; i++) kz_atlas_complete(atlas, curve, i);
+  for (int64_t i = 0; i < curve->n; i++) kz_atlas_complete(atlas, &curve->row[i].at);
   kz_atlas_sign(atlas, curve);
 }
 

@@ -10,7 +10,7 @@ void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double value, bool classes
  * narrow: along the direction in which the gradient of the form's side was taken. d: determinant of the cycle's map. */
 double kz_atlas_band(const kz_cycle_kind *kind, double d, double form, double gradient);
 /* The width at a point of a curve, across it. */
-double kz_atlas_band_at(const kz_atlas *atlas, const kz_plane_cycle *at);
+double kz_atlas_band_at(const kz_atlas *atlas, const kz_cycle *at);
 /* The widest band of attractors beside a curve within the plane, across the curve; 1 at most. */
 double kz_atlas_widest(const kz_atlas *atlas, const kz_atlas_curve *curve);
 /* Takes edges of narrow bands that lack the other edge out of the crossings of a line. */

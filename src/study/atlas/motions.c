@@ -20,60 +20,54 @@ typedef struct {
   const double *place;
   kz_atlas_class class;
   int32_t wanted, found;
-  kz_plane_cycle *cycle; /* [found] */
-  double (*number)[2];   /* [found]: trace and determinant */
-  int64_t *curve;        /* [found] */
+  kz_cycle *cycle; /* [found] */
+  int64_t *curve;  /* [found] */
 } hunt;
 
-static bool motions_attracts(const double number[2]) {
-  return fabs(number[0]) < 1 + number[1];
+static bool motions_attracts(const kz_cycle *cycle) {
+  return fabs(cycle->number[0]) < 1 + cycle->number[1];
 }
 
-static void motions_take(hunt *h, const kz_plane_cycle *cycle, const double number[2], int64_t curve) {
-  double at_image[2];
-  const double *image = kz_atlas_image_state(h->atlas, h->place, cycle->y, at_image) ? at_image : NULL;
-  for (int32_t i = 0; i < h->found; i++)
-    if (kz_atlas_same(h->cycle + i, cycle->y, image, ONE)) return;
+static void motions_take(hunt *h, const kz_cycle *cycle, int64_t curve) {
+  if (kz_atlas_has(h->atlas, h->found, h->cycle, cycle, ONE)) return;
   h->cycle[h->found] = *cycle;
-  memcpy(h->number[h->found], number, sizeof *h->number);
   h->curve[h->found++] = curve;
 }
 
-/* Follows a cycle along an axis to the place; true if it attracts all the way. side: 1 or -1, branch of a fold. */
-static bool motions_carry(const hunt *h, int axis, const kz_plane_cycle *from, int32_t side, kz_plane_cycle *to,
-                          double number[2]) {
-  const int n = 2 * from->kind.of.points;
-  const double target = h->place[axis], sign = target > from->y[n + axis] ? 1 : -1;
+/* Follows a cycle along an axis to the place; true if it attracts on all of the way. side: 1 or -1: one of the branches
+ * of a fold. */
+static bool motions_carry(const hunt *h, int axis, const kz_cycle *from, int32_t side, kz_cycle *to) {
+  const double target = h->place[axis], sign = target > from->place[axis] ? 1 : -1;
   const kz_branch_way way = {{axis == 0 ? sign : 0, axis == 1 ? sign : 0}, KZ_ATLAS_BRANCH_STEP, 0, MOST_ROWS, 0, side};
-  KZ_AUTOFREE kz_branch_row *row = kz_malloc(MOST_ROWS * sizeof *row);
+  KZ_AUTOFREE kz_cycle *row = kz_malloc(MOST_ROWS * sizeof *row);
   kz_plane plane = h->atlas->plane;
   kz_branch_end end;
   *(sign > 0 ? plane.high + axis : plane.low + axis) = target;
-  kz_curve_branch(&plane, &from->kind.of, from->y, &way, row, NULL, &end);
+  kz_cycle_continue(&plane, from, &way, row, NULL, &end);
   if (end.rows < 2 || end.ending != KZ_TRACE_LEFT) return false;
   for (int64_t i = 1; i + 1 < end.rows; i++)
-    if (!motions_attracts(row[i].number)) return false;
-  const double *a = row[end.rows - 2].y, *b = row[end.rows - 1].y;
-  const double share = (target - a[n + axis]) / (b[n + axis] - a[n + axis]);
+    if (!motions_attracts(row + i)) return false;
+  const kz_cycle *a = row + end.rows - 2, *b = row + end.rows - 1;
+  const double share = (target - a->place[axis]) / (b->place[axis] - a->place[axis]);
   if (!(share >= 0 && share <= 1)) return false; /* it has left on the other side */
-  *to = (kz_plane_cycle){.kind = from->kind};
-  for (int i = 0; i < n; i++) to->y[i] = a[i] + share * (b[i] - a[i]);
-  memcpy(to->y + n, h->place, 2 * sizeof *to->y);
-  return kz_curve_solve(&h->atlas->plane, &to->kind.of, to->y, number) && motions_attracts(number);
+  *to = *a;
+  for (int i = 0; i < to->kind.points; i++)
+    for (int c = 0; c < 2; c++) to->point[i][c] = a->point[i][c] + share * (b->point[i][c] - a->point[i][c]);
+  memcpy(to->place, h->place, sizeof to->place);
+  return kz_cycle_solve(&h->atlas->plane, to) && motions_attracts(to);
 }
 
 /* Carries from a crossing the cycle born on the place's side: a fold's stable branch, its own or a daughter cycle. */
 static void carry_from(hunt *h, int axis, const kz_atlas_crossing *crossing) {
   const kz_atlas_curve *curve = h->atlas->curve + crossing->curve;
   const bool is_own = kz_atlas_is_of(&curve->kind, &h->class);
-  kz_plane_cycle from, child, to;
-  double number[2], along[2];
+  kz_cycle from, child, to;
+  double along[2];
   if (!kz_atlas_crossing_point(h->atlas, axis, h->place[1 - axis], crossing, &from)) return;
   if (!is_own && !kz_atlas_grown(h->atlas, &from, axis, &child, along)) return;
-  const bool is_fold = is_own && curve->kind.of.multiplier > 0;
+  const bool is_fold = is_own && curve->kind.multiplier > 0;
   for (int32_t side = is_fold ? -1 : 0; side <= (is_fold ? 1 : 0); side += 2)
-    if (motions_carry(h, axis, is_own ? &from : &child, side, &to, number))
-      motions_take(h, &to, number, crossing->curve);
+    if (motions_carry(h, axis, is_own ? &from : &child, side, &to)) motions_take(h, &to, crossing->curve);
 }
 
 /* Carries from the nearest crossings of a line through the place that give the class an attractor on the way. */
@@ -95,10 +89,8 @@ static void hunt_along(hunt *h, int axis) {
 /* Attractors of the place that starts have found. */
 static void hunt_among(hunt *h, const kz_atlas_seeds *known) {
   for (int64_t i = 0; i < known->count && h->found < h->wanted; i++) {
-    kz_plane_cycle cycle = known->list[i];
-    double number[2];
-    if (kz_atlas_is_of(&cycle.kind, &h->class) && kz_curve_solve(&h->atlas->plane, &cycle.kind.of, cycle.y, number))
-      motions_take(h, &cycle, number, -1);
+    kz_cycle cycle = known->list[i];
+    if (kz_atlas_is_of(&cycle.kind, &h->class) && kz_cycle_solve(&h->atlas->plane, &cycle)) motions_take(h, &cycle, -1);
   }
 }
 
@@ -109,22 +101,20 @@ static void hunt_by_starts(hunt *h) {
 }
 
 static void hunt_rest(hunt *h) {
-  kz_plane_cycle rest = {{{1, 1, 0, 0, 0}, h->class.turns}, {M_PI * h->class.turns, 0, h->place[0], h->place[1]}};
-  double number[2];
-  if (kz_curve_solve(&h->atlas->plane, &rest.kind.of, rest.y, number) && motions_attracts(number))
-    motions_take(h, &rest, number, -1);
+  kz_cycle rest = {.kind = {.side = 1, .points = 1, .rest = 1 + h->class.turns}, .place = {h->place[0], h->place[1]}};
+  rest.point[0][0] = kz_kind_rest(&rest.kind);
+  if (kz_cycle_solve(&h->atlas->plane, &rest) && motions_attracts(&rest)) motions_take(h, &rest, -1);
 }
 
 static void set_state(const hunt *h, int32_t i, kz_motion *motion) {
-  const kz_plane_cycle *cycle = h->cycle + i;
-  double point[4 * KZ_CURVE_POINTS];
+  double point[2 * KZ_CURVE_POINTS][2];
   motion->curve = h->curve[i];
-  motion->strobes = kz_atlas_points(h->atlas, &cycle->kind, h->place, cycle->y, point);
+  motion->strobes = kz_atlas_points(h->atlas, h->cycle + i, point);
   for (int32_t s = 0; s < motion->strobes; s++) {
-    motion->theta[s] = remainder(point[2 * s], 2 * M_PI);
-    motion->velocity[s] = point[2 * s + 1];
+    motion->theta[s] = remainder(point[s][0], 2 * M_PI);
+    motion->velocity[s] = point[s][1];
   }
-  kz_atlas_multipliers(&cycle->kind, h->number[i], motion->multiplier_re, motion->multiplier_im);
+  kz_atlas_multipliers(h->cycle + i, motion->multiplier_re, motion->multiplier_im);
 }
 
 /* The states of all attractors of a class at a place: to `motion`, if not NULL. known: attractors that starts have
@@ -132,16 +122,9 @@ static void set_state(const hunt *h, int32_t i, kz_motion *motion) {
 static int32_t set_states(kz_atlas *atlas, const double place[2], const kz_atlas_class *class, int32_t wanted,
                           const kz_atlas_seeds *known, kz_motion *motion) {
   enum { CARRIED_AT_ONCE = 2 }; /* both branches of a fold may attract where both are carried */
-  KZ_AUTOFREE kz_plane_cycle *cycle = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *cycle);
-  KZ_AUTOFREE double (*number)[2] = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *number);
+  KZ_AUTOFREE kz_cycle *cycle = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *cycle);
   KZ_AUTOFREE int64_t *curve = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *curve);
-  hunt h = {.atlas = atlas,
-            .place = place,
-            .class = *class,
-            .wanted = wanted,
-            .cycle = cycle,
-            .number = number,
-            .curve = curve};
+  hunt h = {.atlas = atlas, .place = place, .class = *class, .wanted = wanted, .cycle = cycle, .curve = curve};
   if (class->type == KZ_CLASS_REST) hunt_rest(&h);
   for (int axis = 1; axis >= 0 && h.found < wanted && class->type != KZ_CLASS_REST; axis--) hunt_along(&h, axis);
   if (h.found < wanted && known) hunt_among(&h, known);

@@ -15,67 +15,61 @@ enum { NEAR_REST = 4, STEPS = 16 };
 static const double GUESSED = 0.1, ONE = 1e-6;
 static const double FASTEST = 2.5, FEWEST_PERIODS = 600, MOST_PERIODS = 6000;
 
-/* The kind of a cycle of period n whose points are y: rest, symmetric, or neither. */
-static kz_cycle_kind kind_of(const kz_atlas *atlas, int n, const double *y, const double *image) {
-  kz_cycle_kind kind = {{1, n, 0, (int32_t)rint((image[0] - y[0]) / (2 * M_PI)), 0}, -1};
-  if (atlas->plane.half_period) {
-    double point[KZ_ATLAS_UNKNOWNS];
-    memcpy(point, y, (2 * (size_t)n + 2) * sizeof *point);
-    while (kz_atlas_reduce(atlas, ONE, &kind, point)) continue;
-    return kind;
-  }
-  if (!atlas->plane.mirrored || kind.of.turns != 0) return kind;
-  if (n == 1 && kz_atlas_apart(y, y, -1) < ONE) kind.rest = cos(y[0]) > 0 ? 0 : 1;
-  if (n % 2 == 0 && kz_atlas_apart(y, y + n, -1) < ONE)
-    kind.of = (kz_curve_kind){-1, n / 2, 0, (int32_t)rint((y[n] + y[0]) / (2 * M_PI)), 0};
-  return kind;
+/* A closed cycle as what it is: rest, symmetric, or neither. */
+static void set_symmetry(const kz_atlas *atlas, kz_cycle *cycle) {
+  const int n = cycle->kind.points;
+  const double *y = cycle->point[0], *half = cycle->point[n / 2];
+  while (atlas->plane.half_period && kz_atlas_reduce(atlas, ONE, cycle)) continue;
+  if (!atlas->plane.mirrored || cycle->kind.turns != 0) return;
+  if (n == 1 && kz_atlas_apart(y, y, -1) < ONE) cycle->kind.rest = cos(y[0]) > 0 ? 1 : 2;
+  if (n % 2 == 0 && kz_atlas_apart(y, half, -1) < ONE)
+    cycle->kind = (kz_cycle_kind){.side = -1, .points = n / 2, .turns = (int32_t)rint((half[0] + y[0]) / (2 * M_PI))};
 }
 
 /* The trace of the map of which a cycle is a fixed point, in that of a multiplier of 1: of the half map, whose square
  * F^n is, by trace and determinant of F^n. */
 static double probe_steepness(const kz_cycle_kind *kind, const double numbers[2]) {
-  if (kind->of.side > 0) return fabs(numbers[0]) / (1 + numbers[1]);
+  if (kind->side > 0) return fabs(numbers[0]) / (1 + numbers[1]);
   const double half = sqrt(numbers[1]);
   return sqrt(fmax(0, numbers[0] + 2 * half)) / (1 + half);
 }
 
-/* Lifts the angles of a cycle so that each point follows from the one before; *turns = net turns. */
-static bool probe_lift(const kz_plane *plane, const double place[2], int n, double *y, int32_t *turns) {
+/* Lifts the angles of a cycle so that each point follows from the one before, and sets its turns. */
+static bool probe_lift(const kz_plane *plane, kz_cycle *cycle) {
+  const int n = cycle->kind.points;
   for (int i = 0; i < n; i++) {
-    double step[4] = {y[2 * i], y[2 * i + 1]}, *next = y + 2 * ((i + 1) % n);
-    if (!kz_curve_orbit(plane, place, 2, 1, step)) return false;
+    double step[4] = {cycle->point[i][0], cycle->point[i][1]}, *next = cycle->point[(i + 1) % n];
+    if (!kz_curve_orbit(plane, cycle->place, 2, 1, step)) return false;
     const double whole = rint((step[2] - next[0]) / (2 * M_PI));
     if (i + 1 < n) next[0] += 2 * M_PI * whole;
-    *turns = (int32_t)whole;
+    cycle->kind.turns = (int32_t)whole;
   }
   return true;
 }
 
-bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *points, int n, double steepest,
-                       kz_plane_cycle *cycle) {
-  kz_curve_kind closed = {1, n, 0, 0, 0};
-  double y[2 * KZ_CURVE_POINTS + 2], numbers[2], image[2];
-  if (n > KZ_CURVE_POINTS) return false;
-  memcpy(y, points, 2 * (size_t)n * sizeof *y);
-  if (!probe_lift(&atlas->plane, place, n, y, &closed.turns)) return false;
-  y[2 * n] = place[0], y[2 * n + 1] = place[1];
-  if (!kz_curve_solve(&atlas->plane, &closed, y, numbers) || kz_atlas_apart(y, points, 1) > GUESSED) return false;
-  for (int d = 1; d < n; d++)
-    if (n % d == 0 && kz_atlas_apart(y + 2 * d, y, 1) < ONE)
-      return kz_atlas_identify(atlas, place, y, d, steepest, cycle);
-  image[0] = y[0] + 2 * M_PI * closed.turns, image[1] = y[1];
-  const kz_cycle_kind kind = kind_of(atlas, n, y, image);
-  if (!(probe_steepness(&kind, numbers) < steepest)) return false;
-  kz_atlas_seeds one = {0};
-  const int m = 2 * kind.of.points;
-  y[m] = place[0], y[m + 1] = place[1];
-  if (kind.rest >= 0)
-    *cycle = (kz_plane_cycle){kind, {M_PI * kind.rest, 0, place[0], place[1]}};
-  else if (kz_atlas_add(atlas, kind, y, &one))
-    *cycle = one.list[0];
-  else
+bool kz_atlas_identify(const kz_atlas *atlas, kz_cycle *cycle, double steepest) {
+  const int n = cycle->kind.points;
+  kz_cycle closed = *cycle;
+  if (n > KZ_CURVE_POINTS || !probe_lift(&atlas->plane, &closed) || !kz_cycle_solve(&atlas->plane, &closed) ||
+      kz_atlas_apart(closed.point[0], cycle->point[0], 1) > GUESSED)
     return false;
-  kz_atlas_seeds_free(&one);
+  const double numbers[2] = {closed.number[0], closed.number[1]};
+  *cycle = closed;
+  for (int d = 1; d < n; d++)
+    if (n % d == 0 && kz_atlas_apart(closed.point[d], closed.point[0], 1) < ONE) {
+      cycle->kind = (kz_cycle_kind){.side = 1, .points = d};
+      return kz_atlas_identify(atlas, cycle, steepest);
+    }
+  KZ_AUTOFREE_BY(kz_atlas_seeds_free) kz_atlas_seeds one = {0};
+  set_symmetry(atlas, &closed);
+  if (!(probe_steepness(&closed.kind, numbers) < steepest)) return false;
+  if (closed.kind.rest) {
+    closed.point[0][0] = kz_kind_rest(&closed.kind), closed.point[0][1] = 0;
+    *cycle = closed;
+    return true;
+  }
+  if (!kz_atlas_add(atlas, &closed, &one)) return false;
+  *cycle = one.list[0];
   return true;
 }
 
@@ -101,18 +95,15 @@ static void probe_begin(kz_dynamics *dynamics, const kz_pendulum *pendulum, int6
 static void add_known(const kz_atlas *atlas, const kz_dynamics *dynamics, const double place[2],
                       kz_atlas_seeds *found) {
   for (int64_t number = 1; number <= kz_dynamics_count(dynamics); number++) {
-    double theta[KZ_CURVE_POINTS], velocity[KZ_CURVE_POINTS], points[2 * KZ_CURVE_POINTS], at_image[2];
+    double theta[KZ_CURVE_POINTS], velocity[KZ_CURVE_POINTS];
     kz_attractor row;
-    kz_plane_cycle cycle;
-    bool known = false;
     kz_dynamics_attractor(dynamics, number, &row);
     if (row.period < 1 || row.period > KZ_CURVE_POINTS) continue;
+    kz_cycle cycle = {.kind = {.side = 1, .points = row.period}, .place = {place[0], place[1]}};
     kz_dynamics_strobe(dynamics, number, theta, velocity);
-    for (int i = 0; i < row.period; i++) points[2 * i] = theta[i], points[2 * i + 1] = velocity[i];
-    if (!kz_atlas_identify(atlas, place, points, row.period, 1, &cycle)) continue;
-    const double *image = kz_atlas_image_state(atlas, place, cycle.y, at_image) ? at_image : NULL;
-    for (int64_t i = 0; i < found->count && !known; i++) known = kz_atlas_same(found->list + i, cycle.y, image, ONE);
-    if (!known) kz_atlas_put(found, &cycle);
+    for (int i = 0; i < row.period; i++) cycle.point[i][0] = theta[i], cycle.point[i][1] = velocity[i];
+    if (kz_atlas_identify(atlas, &cycle, 1) && !kz_atlas_has(atlas, found->count, found->list, &cycle, ONE))
+      kz_atlas_put(found, &cycle);
   }
 }
 
@@ -122,8 +113,8 @@ static kz_status discover_images(kz_dynamics *dynamics, int64_t most, const kz_a
   int64_t n = 0;
   KZ_AUTOFREE double *state = kz_malloc((size_t)(2 * KZ_CURVE_POINTS * found->count + 1) * sizeof *state);
   for (int64_t i = 0; i < found->count; i++)
-    for (int j = 0; j < found->list[i].kind.of.points; j++, n++)
-      kz_start_state(-found->list[i].y[2 * j], -found->list[i].y[2 * j + 1], state + 2 * n);
+    for (int j = 0; j < found->list[i].kind.points; j++, n++)
+      kz_start_state(-found->list[i].point[j][0], -found->list[i].point[j][1], state + 2 * n);
   return kz_discover(NULL, dynamics, 0, most, n, state, NULL);
 }
 

@@ -9,7 +9,6 @@ kz_dynamics *kz_atlas_dynamics(const kz_atlas *atlas, const double place[2], int
 kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_t starts, int64_t seed,
                             kz_atlas_seeds *found);
 
-/* The cycle of n periods near n points, if the trace of its map, for a symmetric cycle of its half, is below `steepest`
- * times that of a multiplier of 1: 1 = it attracts. */
-bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *points, int n, double steepest,
-                       kz_plane_cycle *cycle);
+/* A cycle becomes the one near its points, of its own kind, if the trace of its map, for a symmetric cycle of its half,
+ * is below `steepest` times that of a multiplier of 1: 1 = it attracts. */
+bool kz_atlas_identify(const kz_atlas *atlas, kz_cycle *cycle, double steepest);

@@ -62,8 +62,8 @@ void kz_atlas_put_seeds(const kz_atlas_seeds *seeds, void *record) {
 kz_atlas_seeds kz_atlas_seeds_in(const char *record) {
   seeds_head head;
   memcpy(&head, record, sizeof head);
-  return (kz_atlas_seeds){.count = (int64_t)((head.bytes - sizeof head) / sizeof(kz_plane_cycle)),
-                          .list = (kz_plane_cycle *)(void *)(record + sizeof head),
+  return (kz_atlas_seeds){.count = (int64_t)((head.bytes - sizeof head) / sizeof(kz_cycle)),
+                          .list = (kz_cycle *)(void *)(record + sizeof head),
                           .dropped = head.dropped};
 }
 
@@ -75,8 +75,8 @@ typedef struct {
 } curve_head;
 
 void kz_atlas_put_curve(const kz_atlas_curve *curve, void *record) {
-  const size_t rows = (size_t)(curve->n * kz_atlas_width(&curve->kind)) * sizeof(double);
-  const size_t special = (size_t)(curve->n_special * (KZ_SPECIAL_POINTS + 2 * curve->kind.of.points)) * sizeof(double);
+  const size_t rows = (size_t)curve->n * sizeof *curve->row,
+               special = (size_t)curve->n_special * sizeof *curve->special;
   const curve_head head = {
       sizeof head + rows + special, curve->kind, {curve->ending[0], curve->ending[1]}, 0, curve->n, curve->n_special};
   memcpy(record, &head, sizeof head);
@@ -87,8 +87,7 @@ void kz_atlas_put_curve(const kz_atlas_curve *curve, void *record) {
 kz_atlas_curve kz_atlas_curve_in(const char *record) {
   curve_head head;
   memcpy(&head, record, sizeof head);
-  const size_t rows = (size_t)(head.n * kz_atlas_width(&head.kind)) * sizeof(double),
-               special = head.bytes - sizeof head - rows;
+  const size_t rows = (size_t)head.n * sizeof(kz_curve_row), special = (size_t)head.n_special * sizeof(kz_cycle);
   return (kz_atlas_curve){.kind = head.kind,
                           .ending = {head.ending[0], head.ending[1]},
                           .n = head.n,

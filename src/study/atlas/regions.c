@@ -24,7 +24,7 @@ void kz_atlas_order(kz_atlas *atlas) {
     const kz_cycle_kind child = kz_child_kind(&atlas->curve[i].kind);
     const kz_atlas_class own = kz_atlas_class_of(&atlas->curve[i].kind), grown = kz_atlas_class_of(&child);
     kz_atlas_class_number(atlas, &own);
-    if (atlas->curve[i].kind.of.multiplier < 0 && kz_kind_period(&child) <= atlas->scene->atlas->max_period)
+    if (atlas->curve[i].kind.multiplier < 0 && kz_kind_period(&child) <= atlas->scene->atlas->max_period)
       kz_atlas_class_number(atlas, &grown);
   }
   const int64_t columns = atlas->undriven ? atlas->scene->atlas->points : 0;

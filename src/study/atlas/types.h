@@ -15,12 +15,12 @@
 
 /* Longest step of branches along a line, in sides of the plane. */
 #define KZ_ATLAS_BRANCH_STEP 0.03
-enum { KZ_ATLAS_UNKNOWNS = 2 * KZ_CURVE_POINTS + 2, KZ_ATLAS_MOST_CLASSES = 512 };
+enum { KZ_ATLAS_MOST_CLASSES = 512 };
 
 typedef struct kz_atlas_plan kz_atlas_plan;
 typedef struct {
   int64_t count;
-  kz_plane_cycle *list;
+  kz_cycle *list;
   int64_t capacity, dropped; /* dropped: those that a record had no room for */
 } kz_atlas_seeds;
 
@@ -32,21 +32,13 @@ typedef struct {
 
 /* How a curve ends that was joined to a degenerate point. */
 enum { KZ_ATLAS_JOINED = KZ_TRACE_THIN + 1 };
-/* A row of a curve: KZ_ROW_... of kz_curve_trace. */
-enum {
-  KZ_ROW_PLACE = 0,
-  KZ_ROW_TANGENT = 2,
-  KZ_ROW_FORM = 4,
-  KZ_ROW_SIDE = 5,
-  KZ_ROW_POINTS = 8,
-  KZ_SPECIAL_POINTS = 3
-};
 enum { KZ_SIGNATURE = 5 };
 typedef struct {
   kz_cycle_kind kind;
   int32_t ending[2]; /* ends at the first and last row: KZ_TRACE_..., KZ_ATLAS_JOINED */
   int64_t n, n_special;
-  double *row, *special;
+  kz_curve_row *row;
+  kz_cycle *special;
   double (*signature)[KZ_SIGNATURE]; /* [n]: equal for all ways to write a cycle and its mirror image */
 } kz_atlas_curve;
 

@@ -54,52 +54,54 @@ static bool plane_of(const way *w, kz_plane *plane) {
   return true;
 }
 
-static bool is_symmetric(const kz_plane_cycle *c) {
-  return c->kind.of.side < 0 || c->kind.rest >= 0;
+static bool is_symmetric(const kz_cycle *c) {
+  return c->kind.side < 0 || c->kind.rest;
 }
 
-/* The cycle through a strobe point. Long ones take points several periods apart, a pair of them half a cycle apart. */
-static bool cycle_of(const kz_plane *plane, const kz_attractor *point, double place, kz_plane_cycle *c) {
+/* The cycle through a strobe point at a place. Long ones have points several periods apart: so few that a pair of them
+ * lies half a cycle apart. */
+static bool cycle_of(const kz_plane *plane, const kz_attractor *point, double place, kz_cycle *c) {
   const bool half = point->symmetric && plane->half_period, mirrored = point->symmetric && plane->mirrored;
   const bool halved = half || (mirrored && point->period > 1);
-  const int side = halved ? -1 : 1;
   const int n = halved ? (point->period + half) / 2 : point->period;
   int stride = 1;
   while (n % stride != 0 || n / stride > KZ_CURVE_POINTS || (n % 2 == 0 && n / stride % 2 != 0)) stride++;
   KZ_AUTOFREE double *state = kz_malloc(2 * ((size_t)n + 1) * sizeof *state);
-  const double at[2] = {place, 0};
+  *c = (kz_cycle){.kind = {.side = halved ? -1 : 1,
+                           .points = n / stride,
+                           .stride = stride > 1 ? stride : 0,
+                           .half = half,
+                           .rest = mirrored && !halved ? 1 + (cos(point->theta) < 0) : 0},
+                  .place = {place, 0}};
   state[0] = point->theta, state[1] = point->velocity;
-  c->kind.rest = mirrored && !halved ? cos(point->theta) < 0 : -1;
-  if (!kz_curve_orbit(plane, at, 2, n - half, state)) return false;
-  if (half && !kz_curve_orbit(plane, at, 1, 1, state + 2 * (n - 1))) return false;
-  for (int i = 0; i < n / stride; i++) memcpy(c->y + 2 * i, state + 2 * i * stride, 2 * sizeof *c->y);
-  memcpy(c->y + 2 * (n / stride), at, sizeof at);
-  const int32_t turns = (int32_t)rint((state[2 * n] - side * state[0]) / (2 * M_PI));
-  c->kind.of = (kz_curve_kind){side, n / stride, 0, turns, stride > 1 ? stride : 0, half};
+  if (!kz_curve_orbit(plane, c->place, 2, n - half, state)) return false;
+  if (half && !kz_curve_orbit(plane, c->place, 1, 1, state + 2 * (n - 1))) return false;
+  for (int i = 0; i < n / stride; i++) memcpy(c->point[i], state + 2 * i * stride, sizeof c->point[i]);
+  c->kind.turns = (int32_t)rint((state[2 * n] - c->kind.side * state[0]) / (2 * M_PI));
   return true;
 }
 
 /* The point of a branch that a cycle is. */
-static bool walk_describe(const walking *w, const kz_plane_cycle *c, kz_attractor *point) {
+static bool walk_describe(const walking *w, const kz_cycle *c, kz_attractor *point) {
   kz_pendulum pendulum;
-  const double *place = c->y + 2 * c->kind.of.points;
+  const double *place = c->place;
   const bool at_end = *place == 0 || *place == 1;
   if (!pendulum_at(w->way, place, &pendulum)) return false;
-  const bool halved = c->kind.of.side < 0 && c->kind.rest < 0;
-  const int points = c->kind.of.points;
-  int n = halved && !c->kind.of.half ? 2 * points : points;
-  double state[4 * KZ_CURVE_POINTS + 2];
-  memcpy(state, c->y, 2 * (size_t)points * sizeof *state);
+  const bool halved = c->kind.side < 0 && !c->kind.rest;
+  const int points = c->kind.points;
+  int n = halved && !c->kind.half ? 2 * points : points;
+  double state[2 * KZ_CURVE_POINTS + 1][2];
+  memcpy(state, c->point, (size_t)points * sizeof *state);
   for (int i = points; i < n; i++) /* a symmetric cycle goes on with its image */
-    state[2 * i] = -c->y[2 * (i - points)], state[2 * i + 1] = -c->y[2 * (i - points) + 1];
-  if (c->kind.of.half && c->kind.of.stride > 1) n = 1; /* its points are not equally far apart */
-  for (; c->kind.of.half && n > 1 && n < 2 * points - 1; n++) {
-    double half[4] = {c->y[2 * (n - points)], c->y[2 * (n - points) + 1]};
+    state[i][0] = -c->point[i - points][0], state[i][1] = -c->point[i - points][1];
+  if (c->kind.half && c->kind.stride > 1) n = 1; /* its points are not equally far apart */
+  for (; c->kind.half && n > 1 && n < 2 * points - 1; n++) {
+    double half[4] = {c->point[n - points][0], c->point[n - points][1]};
     if (!kz_curve_orbit(&w->plane, place, 1, 1, half)) return false;
-    state[2 * n] = -half[2], state[2 * n + 1] = -half[3];
+    state[n][0] = -half[2], state[n][1] = -half[3];
   }
   *point = (kz_attractor){.period = kz_kind_period(&c->kind), .symmetric = is_symmetric(c)};
-  kz_branch_describe(at_end ? w->way->path->maps : NULL, &pendulum, n, state, point);
+  kz_branch_describe(at_end ? w->way->path->maps : NULL, &pendulum, n, state[0], point);
   if (!w->plane.mirrored && !w->plane.half_period && kz_pairing_symmetry(&pendulum)) { /* at this value alone */
     const kz_attractor image = kz_branch_point_image(&pendulum, *point);
     point->symmetric = kz_branch_same(w->way->path->maps, &pendulum, point, &image);
@@ -114,80 +116,75 @@ static bool is_damped(const walking *w, double place) {
 }
 
 /* The cycle at place 0 or 1, between two rows of a branch. */
-static bool solve_at(const walking *w, const kz_plane_cycle *c, const kz_branch_row *before, const kz_branch_row *after,
-                     double place, kz_plane_cycle *there) {
-  const int n = 2 * c->kind.of.points;
-  const double share = (place - before->y[n]) / (after->y[n] - before->y[n]);
+static bool solve_at(const walking *w, const kz_cycle *before, const kz_cycle *after, double place, kz_cycle *there) {
+  const int n = before->kind.points;
+  const double share = (place - before->place[0]) / (after->place[0] - before->place[0]);
   double farthest = 1e-6;
-  *there = *c;
-  for (int i = 0; i < n; i++) {
-    there->y[i] = before->y[i] + share * (after->y[i] - before->y[i]);
-    farthest = fmax(farthest, fabs(after->y[i] - before->y[i]));
-  }
-  kz_plane_cycle guess = *there;
-  there->y[n] = place, there->y[n + 1] = 0;
-  if (!kz_curve_solve(&w->plane, &c->kind.of, there->y, NULL)) return false;
+  *there = *before;
   for (int i = 0; i < n; i++)
-    if (!(fabs(there->y[i] - guess.y[i]) <= farthest)) return false;
+    for (int c = 0; c < 2; c++) {
+      there->point[i][c] = before->point[i][c] + share * (after->point[i][c] - before->point[i][c]);
+      farthest = fmax(farthest, fabs(after->point[i][c] - before->point[i][c]));
+    }
+  const kz_cycle guess = *there;
+  there->place[0] = place, there->place[1] = 0;
+  if (!kz_cycle_solve(&w->plane, there)) return false;
+  for (int i = 0; i < n; i++)
+    for (int c = 0; c < 2; c++)
+      if (!(fabs(there->point[i][c] - guess.point[i][c]) <= farthest)) return false;
   return true;
 }
 
 /* Kind of an event of a branch, and the refined cycle with that multiplier: 1, or -1 of its own map. */
-static int kind_of_event(const walking *w, const kz_plane_cycle *c, const kz_branch_event *event, kz_plane_cycle *at) {
-  const kz_event what = event->what;
-  const double along[2] = {1, 0};
+static int kind_of_event(const walking *w, const kz_cycle *event, kz_cycle *at) {
+  const bool merges = event->event > KZ_EVENT_FLIP;
   int kind = KZ_END_FOLD;
-  at->kind = c->kind;
-  memcpy(at->y, event->y, sizeof at->y);
-  if (what > KZ_EVENT_FLIP) {
-    const kz_plane_cycle merging = *at;
-    if (!kz_parent_of(&w->plane, what, &merging, at)) return KZ_END_NOT_LOCATED;
-    kind = what == KZ_EVENT_MIRROR ? KZ_END_SYMMETRY_BREAKING : KZ_END_PERIOD_DOUBLING;
-  } else if (what == KZ_EVENT_FLIP) {
-    at->kind.of.multiplier = -1;
-    kind = c->kind.of.side < 0 ? KZ_END_SYMMETRY_BREAKING : KZ_END_PERIOD_DOUBLING;
-  } else if (c->kind.rest >= 0) { /* on the half map this is a multiplier -1 */
-    at->kind.of = (kz_curve_kind){-1, 1, -1, c->kind.rest, 0};
-    at->y[0] = M_PI * c->kind.rest, at->y[1] = 0; /* not -pi */
+  *at = *event;
+  if (merges) {
+    if (!kz_cycle_parent(&w->plane, event, at)) return KZ_END_NOT_LOCATED;
+    kind = event->event == KZ_EVENT_MIRROR ? KZ_END_SYMMETRY_BREAKING : KZ_END_PERIOD_DOUBLING;
+  } else if (event->event == KZ_EVENT_FLIP) {
+    at->kind.multiplier = -1;
+    kind = event->kind.side < 0 ? KZ_END_SYMMETRY_BREAKING : KZ_END_PERIOD_DOUBLING;
+  } else if (event->kind.rest) { /* on the half map this is a multiplier -1 */
+    at->kind =
+        (kz_cycle_kind){.side = -1, .points = 1, .multiplier = -1, .turns = at->kind.rest - 1, .rest = at->kind.rest};
+    at->point[0][0] = kz_kind_rest(&at->kind), at->point[0][1] = 0; /* not -pi */
     kind = KZ_END_SYMMETRY_BREAKING;
   } else {
-    at->kind.of.multiplier = 1;
+    at->kind.multiplier = 1;
   }
-  kz_plane_cycle refined = *at;
-  const bool found = kz_curve_locate(&w->plane, &at->kind.of, refined.y, along);
-  if (!found) return what > KZ_EVENT_FLIP ? KZ_END_NOT_LOCATED : kind;
-  const double moved = refined.y[2 * at->kind.of.points] - at->y[2 * at->kind.of.points];
-  if (what > KZ_EVENT_FLIP || fabs(moved) < NEAR) *at = refined;
+  kz_cycle refined = *at;
+  if (!kz_cycle_locate(&w->plane, &refined, (double[]){1, 0})) return merges ? KZ_END_NOT_LOCATED : kind;
+  if (merges || fabs(refined.place[0] - at->place[0]) < NEAR) *at = refined;
   return kind;
 }
 
-static void walk_follow(const walking *w, const kz_plane_cycle *c, const double along[2], kz_sweep_piece piece,
-                        int depth);
+static void walk_follow(const walking *w, const kz_cycle *c, const double along[2], kz_sweep_piece piece, int depth);
 
 /* Follows the daughter of an event, within the segment. */
-static void follow_child(const walking *w, const kz_plane_cycle *flip, int kind, int depth) {
-  kz_plane_cycle child;
+static void follow_child(const walking *w, const kz_cycle *flip, int kind, int depth) {
+  kz_cycle child;
   double along[2];
-  if (depth == DEEPEST || !kz_child_of(&w->plane, flip, 0, &child, along) ||
+  if (depth == DEEPEST || !kz_cycle_child(&w->plane, flip, 0, &child, along) ||
       kz_kind_period(&child.kind) > w->max_period)
     return;
-  const double at = value_at(w->way, flip->y[2 * flip->kind.of.points]);
-  const kz_sweep_piece piece = {.begin = at,
+  const kz_sweep_piece piece = {.begin = value_at(w->way, flip->place[0]),
                                 .begin_kind = kind,
                                 .reached = -1,
                                 .step = FIRST,
-                                .twice = is_symmetric(flip) && child.kind.of.side > 0};
+                                .twice = is_symmetric(flip) && child.kind.side > 0};
   walk_follow(w, &child, along, piece, depth + 1);
 }
 
 /* A branch that is cut into pieces where something happens. */
 typedef struct {
   const walking *w;
-  const kz_plane_cycle *c; /* near its begin */
-  kz_sweep_piece piece;    /* piece that has begun */
-  bool sign[2];            /* whether 1 - trace + determinant and 1 + trace + determinant are positive */
-  bool passes;             /* it reaches the second value and ends beyond it */
-  kz_branch_row beyond;    /* cycle at the end beyond */
+  const kz_cycle *c;    /* near its begin */
+  kz_sweep_piece piece; /* piece that has begun */
+  bool sign[2];         /* whether 1 - trace + determinant and 1 + trace + determinant are positive */
+  bool passes;          /* whether it ends beyond the second value, but reaches it */
+  kz_cycle beyond;      /* cycle beyond the second value */
 } branching;
 
 static void add_piece(const branching *b) {
@@ -196,37 +193,35 @@ static void add_piece(const branching *b) {
 }
 
 /* Ends a piece at an event and begins the next one; false where the branch ends there. */
-static bool walk_pass(branching *b, const kz_branch_event *event, int depth) {
-  const bool merges = event->what > KZ_EVENT_FLIP;
-  const int n = 2 * b->c->kind.of.points;
-  kz_plane_cycle at, here = {.kind = b->c->kind};
-  if (!merges && !(event->y[n] >= 0 && event->y[n] <= 1)) return true;
-  const int kind = kind_of_event(b->w, b->c, event, &at);
-  const double where = at.y[2 * at.kind.of.points];
-  if (merges && !(where >= 0 && where <= 1)) {
+static bool walk_pass(branching *b, const kz_cycle *event, int depth) {
+  const bool merges = event->event > KZ_EVENT_FLIP;
+  kz_cycle at;
+  if (!merges && !(event->place[0] >= 0 && event->place[0] <= 1)) return true;
+  const int kind = kind_of_event(b->w, event, &at);
+  if (merges && !(at.place[0] >= 0 && at.place[0] <= 1)) {
     b->passes = true;
-    memcpy(b->beyond.y, event->y, sizeof event->y);
-    b->beyond.y[n] = where;
+    b->beyond = *event;
+    b->beyond.place[0] = at.place[0];
     return true;
   }
-  b->piece.end = value_at(b->w->way, where), b->piece.end_kind = kind, b->piece.attracts = b->sign[0] && b->sign[1];
-  memcpy(here.y, event->y, sizeof here.y);
-  if (!walk_describe(b->w, &here, &b->piece.point)) b->piece.point.period = kz_kind_period(&b->c->kind);
+  b->piece.end = value_at(b->w->way, at.place[0]), b->piece.end_kind = kind,
+  b->piece.attracts = b->sign[0] && b->sign[1];
+  if (!walk_describe(b->w, event, &b->piece.point)) b->piece.point.period = kz_kind_period(&b->c->kind);
   add_piece(b);
   if (merges) return false;
-  b->sign[event->what == KZ_EVENT_FOLD ? 0 : 1] ^= true;
+  b->sign[event->event == KZ_EVENT_FOLD ? 0 : 1] ^= true;
   b->piece = (kz_sweep_piece){.begin = b->piece.end, .begin_kind = kind, .reached = -1, .step = b->piece.step};
-  if (at.kind.of.multiplier < 0 && b->w->max_period > 0) follow_child(b->w, &at, kind, depth);
+  if (at.kind.multiplier < 0 && b->w->max_period > 0) follow_child(b->w, &at, kind, depth);
   return true;
 }
 
 /* Ends the last piece, between the last two rows: at a value that the branch reaches, or where it is lost. */
-static void walk_finish(branching *b, const kz_branch_row *former, const kz_branch_row *last, bool reaches) {
+static void walk_finish(branching *b, const kz_cycle *former, const kz_cycle *last, bool reaches) {
   const way *w = b->w->way;
-  const double at = last->y[2 * b->c->kind.of.points], place = at > 1 ? 1 : 0;
-  kz_plane_cycle there;
+  const double at = last->place[0], place = at > 1 ? 1 : 0;
+  kz_cycle there;
   b->piece.attracts = b->sign[0] && b->sign[1];
-  if (reaches && solve_at(b->w, b->c, former, last, place, &there) && walk_describe(b->w, &there, &b->piece.point))
+  if (reaches && solve_at(b->w, former, last, place, &there) && walk_describe(b->w, &there, &b->piece.point))
     b->piece.reached = place == 1;
   else if (b->piece.attracts && fabs(1 - at) < STUCK && !is_damped(b->w, 1)) /* complex multipliers at 1 */
     b->piece.end = w->to, b->piece.end_kind = KZ_END_NEIMARK_SACKER;
@@ -236,25 +231,22 @@ static void walk_finish(branching *b, const kz_branch_row *former, const kz_bran
 }
 
 /* Follows a cycle along the way, with what branches off, until it leaves the way or ends. `piece`: how it begins. */
-static void walk_follow(const walking *w, const kz_plane_cycle *c, const double along[2], kz_sweep_piece piece,
-                        int depth) {
-  const int n = 2 * c->kind.of.points;
-  KZ_AUTOFREE kz_branch_row *row = kz_malloc(MOST_ROWS * sizeof *row);
-  KZ_AUTOFREE kz_branch_event *event = kz_malloc(MOST_EVENTS * sizeof *event);
+static void walk_follow(const walking *w, const kz_cycle *c, const double along[2], kz_sweep_piece piece, int depth) {
+  KZ_AUTOFREE kz_cycle *row = kz_malloc(MOST_ROWS * sizeof *row), *event = kz_malloc(MOST_EVENTS * sizeof *event);
   const kz_branch_way to = {{along[0], along[1]}, LONGEST, piece.step, MOST_ROWS, MOST_EVENTS, 0};
   branching b = {.w = w, .c = c, .piece = piece};
   kz_branch_end end;
-  kz_curve_branch(&w->rough, &c->kind.of, c->y, &to, row, event, &end);
+  kz_cycle_continue(&w->rough, c, &to, row, event, &end);
   b.piece.step = end.step;
   if (end.rows == 0) { /* nothing is known beyond its beginning */
-    b.piece.end = value_at(w->way, c->y[n]), b.piece.end_kind = KZ_END_NOT_LOCATED;
+    b.piece.end = value_at(w->way, c->place[0]), b.piece.end_kind = KZ_END_NOT_LOCATED;
     if (b.piece.from_start) add_piece(&b);
     return;
   }
   b.sign[0] = 1 + row->number[1] - row->number[0] > 0, b.sign[1] = 1 + row->number[1] + row->number[0] > 0;
   for (int64_t i = 0; i < end.events; i++)
     if (!walk_pass(&b, event + i, depth)) return;
-  const kz_branch_row *last = row + end.rows - 1, *former = end.rows > 1 ? last - 1 : last;
+  const kz_cycle *last = row + end.rows - 1, *former = end.rows > 1 ? last - 1 : last;
   if (b.passes)
     walk_finish(&b, last, &b.beyond, true);
   else
@@ -264,14 +256,14 @@ static void walk_follow(const walking *w, const kz_plane_cycle *c, const double 
 void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_attractor *point,
                      double step, kz_sweep_walk *found) {
   const way w = {path, from, to};
-  const double along[2] = {1, 0};
   walking walk = {.way = &w, .max_period = max_period, .found = found};
-  kz_plane_cycle c;
+  kz_cycle c;
   found->count = 0;
   if (plane_of(&w, &walk.plane) && cycle_of(&walk.plane, point, 0, &c)) {
+    const kz_sweep_piece piece = {.from_start = 1, .reached = -1, .step = step > 0 ? step : FIRST};
     walk.rough = walk.plane;
     walk.rough.steps /= 2;
-    walk_follow(&walk, &c, along, (kz_sweep_piece){.from_start = 1, .reached = -1, .step = step > 0 ? step : FIRST}, 0);
+    walk_follow(&walk, &c, (double[]){1, 0}, piece, 0);
   }
   if (found->count == 0)
     found->piece[found->count++] =

@@ -92,17 +92,21 @@ def test_c_structures_are_the_fortran_types(entries):
         for name, (_, parameters) in declared(text).items():
             for one, other in zip(parameters, functions_in_c.get(name, (None, []))[1], strict=False):
                 agrees(one, other, met)
-    members = {name for fortran, _ in met for name in types if re.search(rf"\b{name} ", types[fortran])}
-    assert types.keys() == {fortran for fortran, _ in met} | members
+    def parts_of(fortran):
+        """The types that it has members of, and itself, those that others need first."""
+        parts = [name for name in types if re.search(rf"\b{name} ", types[fortran])]
+        return [*(part for name in parts for part in parts_of(name)), fortran]
+
+    ordered = list(dict.fromkeys(part for fortran in sorted({one for one, _ in met}) for part in parts_of(fortran)))
+    assert types.keys() == set(ordered)
     headers = [f'#include "kapitza/{path.name}"' for path in sorted(HEADERS.glob("dynamics*.h"))]
     program = ["#include <stddef.h>", *headers, '#include "vector/vector.h"',
                "typedef _Float128 float128;",
-               *(f"typedef struct {{{types[name]}}} {name};" for name in sorted(members))]
+               *(f"typedef struct {{{types[name]}}} {name};" for name in ordered)]
     for path, text in sources.items():  # structures that only one C file needs
         if path.suffix == ".c" and any(f"}} {c};" in text for _, c in met):
             program += re.findall(r"^enum \{[^}]*\};|^typedef struct \{[^}]*\} kz_\w+;", text, re.MULTILINE)
     for fortran, c in sorted(met):
-        program.append(f"typedef struct {{{types[fortran]}}} {fortran};")
         program.append(f'_Static_assert(sizeof({fortran}) == sizeof({c}), "size of {c}");')
         # C keeps quads as bytes
         for field in re.findall(r"^ *(?!float128)(?:signed )?\w+ (\w+)", types[fortran], re.MULTILINE):

@@ -84,16 +84,13 @@ TEST(test_repelling) {
   enum { N = 9 };
   const kz_pendulum p = described_pendulum(0.5682051282051281);
   const kz_plane plane = {same_pendulum, &p, {0, -1}, {1, 1}, .steps = 192, .mirrored = 1};
-  const kz_curve_kind kind = {1, N, 0, 3, 0};
-  const double place[2] = {0, 0};
-  double y[2 * N + 2] = {1.457070978577512, 0.16176735831871347}, numbers[2];
+  kz_cycle cycle = {.kind = {1, N, 0, 3}, .point = {{1.457070978577512, 0.16176735831871347}}};
   kz_attractor point = {.period = N};
-  assert_true(kz_curve_orbit(&plane, place, 2, N, y));
-  y[2 * N] = y[2 * N + 1] = 0;
-  assert_true(kz_curve_solve(&plane, &kind, y, numbers));
-  kz_branch_describe(NULL, &p, N, y, &point);
-  assert_true(point.winding == 3 && fabs(numbers[0]) > 2e8);
-  assert_true(fabs(point.multiplier_re[0] / numbers[0] - 1) < 1e-7);
+  assert_true(kz_curve_orbit(&plane, cycle.place, 2, N - 1, cycle.point[0]));
+  assert_true(kz_cycle_solve(&plane, &cycle));
+  kz_branch_describe(NULL, &p, N, cycle.point[0], &point);
+  assert_true(point.winding == 3 && fabs(cycle.number[0]) > 2e8);
+  assert_true(fabs(point.multiplier_re[0] / cycle.number[0] - 1) < 1e-7);
 }
 
 /* More pendulums than maps are kept, in turns: what is said of a cycle does not depend on which maps are kept. */
