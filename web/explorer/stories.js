@@ -90,7 +90,7 @@ export class Stories {
 
   end() {
     if (!this.story) return;
-    this.story = this.known = null;
+    this.story = null;
     this.gliding = null;
     clearTimeout(this.next);
     delete document.body.dataset.story;
