@@ -42,7 +42,7 @@ static bool read_cycle(const kz_atlas *atlas, const double place[2], kz_cycle *c
 }
 
 /* Adds the curve of a seed that the atlas lacks, and tells it. */
-static void tell(kz_atlas *atlas, const kz_cycle *seed) {
+static void births_tell(kz_atlas *atlas, const kz_cycle *seed) {
   kz_atlas_curve curve;
   double value[2];
   kz_atlas_trace(atlas, seed, &curve);

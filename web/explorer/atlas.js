@@ -1,9 +1,10 @@
-// An atlas: curves over a plane of two keys on which motions are born and change, and the motions of every place. Places are shares of the
-// plane, [x, y].
+// An atlas: curves over a plane of two keys on which motions are born and change, and the motions of every place.
+// Places are shares of the plane, [x, y].
 
 export class Atlas {
   curves; classes; lists; cells; longest; mirrored; certainty; file; low; width;
-  x; y; sideX; sideY; // of all points of all curves: their places, and the directions to the side where the motion lives
+  // Of all points of all curves: their places, and the directions to the side where the motion lives
+  x; y; sideX; sideY;
 
   /** Of an answer to the request atlas. */
   constructor(header, bytes) {
@@ -42,7 +43,8 @@ export class Atlas {
     return (this.lists[this.listAt(place)] ?? []).map(([motion, count]) => ({ ...this.classes[motion], count }));
   }
 
-  /** Crossings of the way from one place to another, in their order: {curve, point, at, into}; into: to the side where the motion lives. */
+  /** Crossings of the way from one place to another, in their order: {curve, point, at, into}; into: to the side where
+   * the motion lives. */
   crossed(from, to) {
     const found = [];
     const [left, right] = [Math.min(from[0], to[0]), Math.max(from[0], to[0])];
@@ -59,7 +61,8 @@ export class Atlas {
     return found.sort((one, other) => one.at - other.at);
   }
 
-  /** The curve of motions of so many periods at most that comes nearest to a place, within `reach` along each axis; null where there is none. */
+  /** The curve of motions of so many periods at most that comes nearest to a place, within `reach` along each axis;
+   * null where there is none. */
   nearest([x, y], reach, longest = Infinity) {
     let best = { distance: 1, curve: null };
     for (const curve of this.curves) {

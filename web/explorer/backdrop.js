@@ -1,10 +1,10 @@
-// What lies under the curves of the map: what of most interest a place has, or, while that is not known, the kind of motion in which a start
-// near inverted ends.
+// What lies under the curves of the map: what of most interest a place has, or, while that is not known, the kind of
+// motion in which a start near inverted ends.
 
 import { bytesOf } from "./frames.js";
 import { kindOf as kindOfName } from "./words.js";
 
-/** Regions of a map, the first that fits names a place: [words, kinds of motion that it has, the kind that gives its colour].
+/** Regions of a map, the first that fits names a place: [words, kinds of motion that it has, kind that colours it].
  * @typedef {[string, string[], string]} Region
  * @type {Region[]} */
 const REGIONS = [
@@ -28,10 +28,12 @@ export function regionWords(atlas, place) {
 
 function regionOfList(atlas, list) {
   const motions = atlas.lists[list];
-  return motions ? regionOf(motions.map(([motion]) => atlas.classes[motion].name.replace(/^rotation /, "rotation +")).map(kindOfName)) : UNKNOWN;
+  return motions ? regionOf(motions.map(([motion]) => atlas.classes[motion].name.replace(/^rotation /, "rotation +"))
+    .map(kindOfName)) : UNKNOWN;
 }
 
-/** A picture, {canvas of one pixel a cell, kinds: [[words, colour], ...] of the regions that it has}; `region(i)`: of cell i, rows from below. */
+/** A picture, {canvas of one pixel a cell, kinds: [[words, colour], ...] of the regions that it has}; `region(i)`: of
+ * cell i, rows from below. */
 function painted(rows, columns, region, colours) {
   const canvas = Object.assign(document.createElement("canvas"), { width: columns, height: rows });
   const context = canvas.getContext("2d");
@@ -59,7 +61,8 @@ export function chartPicture({ rows, columns }, bytes, colours) {
   return painted(rows, columns, (i) => regionOf([kindOf(bytes[i], bytes[rows * columns + i])]), colours);
 }
 
-/** The kind of motion of a cell of a chart by period (0 = chaotic, 255 = not settled) and centre (0 down, 1 inverted, 2 rotating, 3 neither). */
+/** The kind of motion of a cell of a chart by period (0 = chaotic, 255 = not settled) and centre (0 down, 1 inverted, 2
+ * rotating, 3 neither). */
 export function kindOf(period, centre) {
   if (period === 255) return "not settled";
   if (period === 0) return "chaotic";

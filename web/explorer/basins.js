@@ -1,4 +1,5 @@
-// The panes of basins together: one or two, their hands, their legend, the motion from a start, what the page says of them.
+// The panes of basins together: one or two, their hands, their legend, the motion from a start, what the page says of
+// them.
 
 import { onBoundary } from "./boundary.js";
 import { element } from "./element.js";
@@ -20,10 +21,12 @@ import { kindOf, sentenceOf, verdictOf } from "./words.js";
 const SECOND = 1.2; // drive periods that a second shows
 const SAMPLES = 48; // of a motion, a drive period
 const RESTS = 400; // ms after which the pointer rests, and the smallest push out of the basin under it is looked for
-const FIRST = { theta: "3", velocity: "0", pane: "a" }; // the start that is played until one is chosen: near inverted, at rest
+// The start that is played until one is chosen: near inverted, at rest
+const FIRST = { theta: "3", velocity: "0", pane: "a" };
 const [LEAST, MOST] = [24, 400]; // drive periods of a motion
 const FRAME_KEYS = ["window", "pendulum", "other", "quality", "samples", "shade"];
-const stillness = matchMedia("(prefers-reduced-motion: reduce)"); // a wish of the reader's system: nothing moves until it is asked to
+// A wish of the reader's system: nothing moves until it is asked to
+const stillness = matchMedia("(prefers-reduced-motion: reduce)");
 
 export class Basins {
   constructor(state) {
@@ -74,14 +77,16 @@ export class Basins {
     for (const pane of this.panes)
       pane.over.setAttribute(
         "aria-label",
-        `Basins ${this.state.other ? pane.name.toUpperCase() : ""}: wheel or + and − zoom, dragging or arrows move, a click plays the pendulum`,
+        `Basins ${this.state.other ? pane.name.toUpperCase() : ""}: wheel or + and − zoom, dragging or arrows move, ` +
+          "a click plays the pendulum",
       );
   }
 
   add(name) {
     const root = element("pane").content.firstElementChild.cloneNode(true);
     element("panes").insertBefore(root, element("panes").querySelector(".chart"));
-    const pane = new Pane(root, name, this.state, { report: () => this.write(), say: (...words) => this.say(...words) });
+    const pane = new Pane(root, name, this.state,
+      { report: () => this.write(), say: (...words) => this.say(...words) });
     listen(pane.over, this.handsOn(pane));
     pane.offer.onclick = () => element("nearest").click();
     pane.onPlain = () => this.state.drawn === "on" && this.inward === this.state.window && element("nearest").click();
@@ -154,14 +159,16 @@ export class Basins {
   playAttractor(key) {
     const rows = this.active.top ? sharesOf(this.active.top).filter((one) => one.key === key || one.kind === key) : [];
     const row = rows.sort((one, other) => other.share - one.share).find(({ strobe }) => strobe?.length);
-    if (row) this.state.change({ start: { theta: String(row.strobe[0][0]), velocity: String(row.strobe[0][1]), pane: this.active.name } });
+    if (row) this.state.change(
+      { start: { theta: String(row.strobe[0][0]), velocity: String(row.strobe[0][1]), pane: this.active.name } });
   }
 
   // ---- the motion from a start ----
 
   forgetMotion() {
     this.motion = null;
-    for (const pane of this.panes) Object.assign(pane.plain, { motion: null, overlays: this.overlaysOf(pane), skeleton: null });
+    for (const pane of this.panes) Object.assign(pane.plain, { motion: null, overlays: this.overlaysOf(pane),
+      skeleton: null });
     this.awaitMotion();
     this.drawStage();
   }
@@ -193,11 +200,13 @@ export class Basins {
       const periods = Math.round(Math.max(LEAST, Math.min(MOST, wanted)));
       const orbit = { request: "orbit", ...request, samples_per_period: SAMPLES };
       const [header, bytes] = await pane.engine.answer({ ...orbit, periods });
-      const strobe = () => ({ theta: ending.strobe_theta[0], velocity: ending.strobe_velocity[0], periods: ending.period });
+      const strobe = () => ({ theta: ending.strobe_theta[0], velocity: ending.strobe_velocity[0],
+        periods: ending.period });
       const cycle = ending.period > 0 ? await pane.engine.answer({ ...orbit, ...strobe() }) : null;
       if (order === this.followed) this.play(pane, new Motion(header, bytes, ending, cycle));
     } catch (error) {
-      if (order === this.followed) element("ending").textContent = found + error.message; // a motion is not shown for every release
+      // A motion is not shown for every release
+      if (order === this.followed) element("ending").textContent = found + error.message;
     }
   }
 
@@ -266,7 +275,8 @@ export class Basins {
     this.writePointed();
   }
 
-  /** Half axes of the spread of releases by hand, in shares of the window: as much in angle (its setting) as in velocity; null = none. */
+  /** Half axes of the spread of releases by hand, in shares of the window: as much in angle (its setting) as in
+   * velocity; null = none. */
   get spread() {
     const reach = (Number(this.state.spread) * Math.PI) / 180;
     const { theta, velocity } = this.state.window;
@@ -294,14 +304,16 @@ export class Basins {
       progress: progress ?? (state === "done" ? 1 : known.progress),
     });
     const all = [...this.states.values()];
-    const worst = ["error", "computing", "moving", "done"].find((name) => all.some((one) => one.state === name)) ?? "starting";
+    const worst = ["error", "computing", "moving", "done"].find((name) => all.some((one) => one.state === name))
+      ?? "starting";
     document.body.dataset.state = worst;
     element("status").textContent = all.find((one) => one.state === worst)?.words ?? "";
     element("progress").value = Math.min(...all.map((one) => one.progress ?? 0));
     const isStopped = worst === "done" && this.panes.some((one) => one.isStopped);
     element("cancel").textContent = isStopped ? "Resume" : "Cancel";
     element("cancel").disabled = !isStopped && worst !== "computing" && worst !== "moving";
-    pane.root.querySelector(".wait").textContent = `${Math.round(100 * (this.states.get(pane).progress ?? 0))} % of the new picture`;
+    pane.root.querySelector(".wait").textContent =
+      `${Math.round(100 * (this.states.get(pane).progress ?? 0))} % of the new picture`;
     const refusal = pane.root.querySelector(".refusal");
     refusal.hidden = this.states.get(pane).state !== "error";
     refusal.textContent = refusal.hidden ? "" : this.states.get(pane).words;
@@ -333,7 +345,8 @@ export class Basins {
     const centre = [units.angle(middle(theta), digits), units.velocity(middle(velocity), digits)];
     const [angle, speed] = centre.map((words) => signed(brief(words)));
     element("where").textContent =
-      `Depth ${depth < 1e6 ? Number(depth.toPrecision(3)) : depth.toExponential(1)}×  centre θ ${angle}, velocity ${speed}`;
+      `Depth ${depth < 1e6 ? Number(depth.toPrecision(3)) : depth.toExponential(1)}×` +
+      `  centre θ ${angle}, velocity ${speed}`;
     element("where").dataset.window = JSON.stringify(this.state.window.toRequest());
     element("where").dataset.depth = depth;
     for (const pane of this.panes) pane.root.querySelector(".caption").textContent = this.captionOf(pane);
@@ -355,8 +368,10 @@ export class Basins {
   /** What tells a pane's pendulum from the other's. */
   captionOf(pane) {
     if (!this.state.other) return "";
-    const differing = Object.keys(this.state.pendulum).filter((name) => this.state.pendulum[name] !== this.state.other[name]);
-    return `${pane.name.toUpperCase()}  ${differing.map((name) => `${name.replace(/_/g, " ")} ${pane.pendulum[name]}`).join(", ")}`;
+    const differing = Object.keys(this.state.pendulum)
+      .filter((name) => this.state.pendulum[name] !== this.state.other[name]);
+    const values = differing.map((name) => `${name.replace(/_/g, " ")} ${pane.pendulum[name]}`);
+    return `${pane.name.toUpperCase()}  ${values.join(", ")}`;
   }
 }
 

@@ -15,11 +15,13 @@ const TRIED = 5; // starts with another quick label whose end is asked for
 /** Id of the attractor that a start, [theta, velocity] as Decimals, ends on; -1: it settles on none. */
 /** @param {import("./pane.js").Pane} pane @param {any[]} start */
 export async function endOf(pane, [theta, velocity]) {
-  const request = { request: "where", theta: theta.toString(), velocity: velocity.toString(), pendulum: asScene(pane.pendulum) };
+  const request = { request: "where", theta: theta.toString(), velocity: velocity.toString(),
+    pendulum: asScene(pane.pendulum) };
   return (await pane.engine.answer(request))[0].attractor;
 }
 
-/** Halves the way between two starts, of which the first ends on `end`: yields [one, other, share of their distance] after each step. */
+/** Halves the way between two starts, of which the first ends on `end`: yields [one, other, share of their distance]
+ * after each step. */
 export async function* halvings(pane, one, other, end) {
   for (let share = 0.5; ; share /= 2) {
     const middle = [0, 1].map((axis) => one[axis].plus(other[axis]).half());
@@ -34,7 +36,8 @@ function otherCells({ rows, columns, labels }) {
   const own = labels[Math.floor(rows / 2) * columns + Math.floor(columns / 2)];
   const found = [];
   labels.forEach((label, cell) => {
-    if (label !== own && label !== 255) found.push([((cell % columns) + 0.5) / columns, (Math.floor(cell / columns) + 0.5) / rows]);
+    if (label !== own && label !== 255) found.push(
+      [((cell % columns) + 0.5) / columns, (Math.floor(cell / columns) + 0.5) / rows]);
   });
   const distance = ([x, y]) => Math.hypot(x - 0.5, y - 0.5);
   return found.sort((one, other) => distance(one) - distance(other));
@@ -58,9 +61,11 @@ async function soughtBoundary(pane, window) {
       const other = [wide.theta.at(x), wide.velocity.at(y)];
       if ((await endOf(pane, other)) === end) continue;
       const finest = 1e-3 * Math.min(1, window.theta.width / wide.theta.width);
-      for await (const [one, , share] of halvings(pane, middle, other, end)) if (share < finest) return around(window, one);
+      for await (const [one, , share] of halvings(pane, middle, other, end)) if (share < finest) return around(window,
+        one);
     }
-    if (wide.theta.width >= TURN * (1 - 1e-9) && wide.velocity.width > FASTEST) throw new Error("No other basin was found.");
+    if (wide.theta.width >= TURN * (1 - 1e-9) && wide.velocity.width > FASTEST) throw new Error(
+      "No other basin was found.");
   }
 }
 
@@ -69,10 +74,9 @@ function around({ theta, velocity }, point) {
   return new Window(range(theta, point[0]), range(velocity, point[1]));
 }
 
-/**
- * The smallest change of velocity seen that takes an attractor from one of its strobe points, { id, strobe: [[theta, velocity], ...] }, into
- * another basin: found among the cells of the last frame, then halved. Null: none in that window. Tongues thinner than a cell may lie nearer.
- */
+/** The smallest change of velocity seen that takes an attractor from one of its strobe points, { id, strobe: [[theta,
+ * velocity], ...] }, into another basin: found among the cells of the last frame, then halved. Null: none in that
+ * window. Tongues thinner than a cell may lie nearer. */
 export async function smallestPush(pane, { id, strobe }) {
   const { top: frame } = pane;
   if (!frame) return null;
@@ -88,7 +92,8 @@ export async function smallestPush(pane, { id, strobe }) {
       for (let at = row + step; at >= 0 && at < frame.rows; at += step) {
         const label = frame.labels[at * frame.columns + column];
         if (label === id || label === 255) continue;
-        if (!best || Math.abs(at - row) < best.cells) best = { cells: Math.abs(at - row), theta, velocity, at: (at + 0.5) / frame.rows };
+        if (!best || Math.abs(at - row) < best.cells) best = { cells: Math.abs(at - row), theta, velocity,
+          at: (at + 0.5) / frame.rows };
         break;
       }
   }
@@ -100,9 +105,11 @@ export async function smallestPush(pane, { id, strobe }) {
   return null;
 }
 
-/** Whether cells of a frame in a part of it, shares [left, bottom, width, height], have several labels; null where it has too few cells. */
+/** Whether cells of a frame in a part of it, shares [left, bottom, width, height], have several labels; null where it
+ * has too few cells. */
 function hasSeveral({ rows, columns, labels }, [left, bottom, width, height]) {
-  const [first, last] = [Math.max(0, Math.floor(left * columns)), Math.min(columns, Math.ceil((left + width) * columns))];
+  const [first, last] = [Math.max(0, Math.floor(left * columns)),
+    Math.min(columns, Math.ceil((left + width) * columns))];
   const [low, high] = [Math.max(0, Math.floor(bottom * rows)), Math.min(rows, Math.ceil((bottom + height) * rows))];
   if (last - first < FEWEST || high - low < FEWEST) return null;
   for (let row = low; row < high; row++)
@@ -111,7 +118,8 @@ function hasSeveral({ rows, columns, labels }, [left, bottom, width, height]) {
   return false;
 }
 
-/** A window that would show one colour of a frame, moved to the boundary of the frame that is nearest; the window itself where there is none. */
+/** A window that would show one colour of a frame, moved to the boundary of the frame that is nearest; the window
+ * itself where there is none. */
 export function onBoundary(window, frame) {
   const { place, period } = placementOf(frame, window);
   const [left, bottom, width, height] = place;
@@ -122,7 +130,8 @@ export function onBoundary(window, frame) {
   return edge ? window.moved(width * (edge[0] - at[0]), height * (edge[1] - at[1])).wrapped() : window;
 }
 
-/** The edge between labels that is nearest to a place of a frame (shares of it), within `reach`; null where there is none. */
+/** The edge between labels that is nearest to a place of a frame (shares of it), within `reach`; null where there is
+ * none. */
 export function edgeNear({ rows, columns, labels }, x, y, reach) {
   const [column, row] = [Math.floor(x * columns), Math.floor(y * rows)];
   const [across, up] = [Math.ceil(reach * columns), Math.ceil(reach * rows)];

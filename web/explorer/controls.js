@@ -54,7 +54,8 @@ export function listenControls(state, basins) {
 /** Tabs of the motion, and buttons that let a part of the page fill it. */
 function listenStage(state, basins) {
   const tabs = VIEWS.map((view) => {
-    const tab = Object.assign(document.createElement("button"), { textContent: view, onclick: () => state.change({ view }) });
+    const tab = Object.assign(document.createElement("button"),
+      { textContent: view, onclick: () => state.change({ view }) });
     tab.setAttribute("role", "tab");
     return tab;
   });
@@ -62,11 +63,13 @@ function listenStage(state, basins) {
   const show = () => tabs.forEach((tab, i) => tab.setAttribute("aria-selected", String(VIEWS[i] === state.view)));
   state.listen(show);
   show();
-  const close = (target) => document.querySelectorAll(".menu[open]").forEach((menu) => menu.contains(target) || menu.removeAttribute("open"));
+  const close = (target) => document.querySelectorAll(".menu[open]").forEach((menu) => menu.contains(target)
+    || menu.removeAttribute("open"));
   addEventListener("pointerdown", (event) => close(event.target));
   addEventListener("keydown", (event) => {
     if (event.key !== "Escape") return;
-    if (document.body.dataset.filled || document.querySelector(".menu[open]")) event.preventDefault(); // it stops no labels, too
+    // It stops no labels, too
+    if (document.body.dataset.filled || document.querySelector(".menu[open]")) event.preventDefault();
     close(null);
     document.body.dataset.filled = "";
   });
@@ -96,7 +99,8 @@ function listenLevels(state) {
 
 function fillButton(name) {
   const words = `let ${PARTS[name]} fill the page`;
-  const button = Object.assign(document.createElement("button"), { id: `fill-${name}`, title: words + (KEYS[name] ?? ""), textContent: "⤢" });
+  const button = Object.assign(document.createElement("button"),
+    { id: `fill-${name}`, title: words + (KEYS[name] ?? ""), textContent: "⤢" });
   button.dataset.fills = name;
   button.dataset.from = "measure";
   button.setAttribute("aria-label", words);
@@ -155,7 +159,8 @@ function listenPendulums(state, basins) {
   };
   const set = (name, value) => setAll({ [name]: value });
   const engine = () => (document.body.dataset.state === "done" ? basins.active.engine : null);
-  const newSliders = () => new Sliders(element("sliders"), state.scene, { change: set, sweep: (name) => film.sweep(name), engine });
+  const newSliders = () => new Sliders(element("sliders"), state.scene,
+    { change: set, sweep: (name) => film.sweep(name), engine });
   let sliders = newSliders();
   const show = (keys) => {
     if (keys?.has("scene")) {
@@ -166,7 +171,8 @@ function listenPendulums(state, basins) {
     element("map-shown").setAttribute("aria-pressed", String(state.map === "on"));
     element("compare").setAttribute("aria-pressed", String(Boolean(state.other)));
     element("which").hidden = !state.other;
-    for (const button of element("which").children) button.setAttribute("aria-pressed", String(button.dataset.pane === state.pane));
+    for (const button of element("which").children) button.setAttribute("aria-pressed",
+      String(button.dataset.pane === state.pane));
   };
   for (const button of element("which").children) button.onclick = () => state.change({ pane: button.dataset.pane });
   element("compare").onclick = () => {
@@ -176,7 +182,8 @@ function listenPendulums(state, basins) {
   element("map-shown").onclick = () => state.change({ map: state.map === "on" ? "off" : "on" });
   const film = new Film(state, basins, sliders.names, (name, value) => change({ [name]: value }), complain);
   film.onSweep = (name) => sliders.showSwept(name);
-  const map = new MotionMap(state, sliders.names, { set: setAll, say: (words) => (element("happening").textContent = words) });
+  const map = new MotionMap(state, sliders.names,
+    { set: setAll, say: (words) => (element("happening").textContent = words) });
   state.listen(show);
   show();
   return { film, map };
@@ -199,7 +206,8 @@ function listenChoices(state, basins) {
     for (const name of SWITCHES) element(name).checked = state[name] === "on";
   };
   for (const name in CHOICES) element(name).onchange = () => state.change({ [name]: element(name).value });
-  for (const name of SWITCHES) element(name).onchange = () => state.change({ [name]: element(name).checked ? "on" : "off" });
+  for (const name of SWITCHES) element(name).onchange = () =>
+    state.change({ [name]: element(name).checked ? "on" : "off" });
   for (const name of Object.keys(state.overlays)) element("overlays").append(overlayBox(name, basins));
   state.listen(show);
   show();
@@ -209,7 +217,8 @@ function listenChoices(state, basins) {
 function pictureWidth() {
   const { value } = element("save-width");
   const width = Number(value);
-  if (value !== "" && !(width >= 300 && width <= 8000)) throw new Error(`${value} is no width of a picture; it must be 300 to 8000 px`);
+  if (value !== "" && !(width >= 300 && width <= 8000)) throw new Error(
+    `${value} is no width of a picture; it must be 300 to 8000 px`);
   return width;
 }
 

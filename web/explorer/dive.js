@@ -1,4 +1,5 @@
-// A dive: two starts with different ends are clicked, the boundary between them is found by halving, and the window goes down to it.
+// A dive: two starts with different ends are clicked, the boundary between them is found by halving, and the window
+// goes down to it.
 
 import { endOf, halvings, nearestBoundary } from "./boundary.js";
 import { Decimal } from "./decimal.js";
@@ -50,7 +51,8 @@ export class Dive {
     const start = [Decimal.from(theta), Decimal.from(velocity)];
     const end = await endOf(pane, start);
     if (order !== this.order) return;
-    if (this.starts.length && this.end === end) return this.say("Dive: both starts end on the same attractor. Click another one.");
+    if (this.starts.length && this.end === end) return this.say(
+      "Dive: both starts end on the same attractor. Click another one.");
     this.starts.push(start);
     this.mark(this.starts);
     if (this.starts.length < 2) {
@@ -89,7 +91,8 @@ export class Dive {
     if (failure) this.say(failure);
   }
 
-  /** The point between the two starts beyond which the end changes; halved until they are DEEPEST apart. The marks show it. */
+  /** The point between the two starts beyond which the end changes; halved until they are DEEPEST apart. The marks show
+   * it. */
   async boundary(order, pane) {
     for await (const [one, other, share] of halvings(pane, ...this.starts, this.end)) {
       if (order !== this.order || share <= DEEPEST) return one;
@@ -111,7 +114,8 @@ export class Dive {
         const scaled = range.scaled(Math.exp(-SPEED * seconds), share);
         return scaled.moved((share - 0.5) * Math.min(1, 3 * seconds));
       };
-      this.state.change({ window: new Window(around(window.theta, theta), around(window.velocity, velocity)), jump: true });
+      this.state.change({ window: new Window(around(window.theta, theta), around(window.velocity, velocity)),
+        jump: true });
       await nextPicture();
     }
   }

@@ -1,4 +1,5 @@
-// Requests to the server, which passes them on to the program, and the program's answers: headers, each followed by bytes.
+// Requests to the server, which passes them on to the program, and the program's answers: headers, each followed by
+// bytes.
 
 const LINE_FEED = 10;
 const KEY = `kapitza ${new URL(".", location.href).pathname}`; // of the token in the browser's storage
@@ -13,7 +14,8 @@ export async function signIn() {
     if (answer.ok) keep(KEY, (await answer.json()).token);
     else if (!kept(KEY)) throw new Error((await answer.json()).error);
   }
-  if (!kept(KEY)) throw new Error("Open the address that kapitza view has printed in the terminal. This one has no token.");
+  if (!kept(KEY)) throw new Error(
+    "Open the address that kapitza view has printed in the terminal. This one has no token.");
 }
 
 function keep(name, value) {
@@ -34,9 +36,11 @@ function kept(name) {
 }
 
 async function post(path, body, signal) {
-  const send = () => fetch(path, { method: "POST", headers: { "X-Kapitza-Token": kept(KEY) }, body: JSON.stringify(body), signal });
+  const send = () => fetch(path, { method: "POST", headers: { "X-Kapitza-Token": kept(KEY) },
+    body: JSON.stringify(body), signal });
   let answer = await send();
-  if (answer.status === 403 && storage.delete(KEY)) answer = await send(); // of a server begun anew, the browser may know a newer one
+  // Of a server begun anew, the browser may know a newer one
+  if (answer.status === 403 && storage.delete(KEY)) answer = await send();
   if (!answer.ok) throw new Error((await answer.json()).error);
   return answer;
 }
@@ -99,7 +103,8 @@ export class Engine {
     this.catalogue = null;
   }
 
-  /** Each answer to `request` in turn; throws the program's own words where it refuses. Catalogues are kept, not handed on. */
+  /** Each answer to `request` in turn; throws the program's own words where it refuses. Catalogues are kept, not handed
+   * on. */
   async *answers(request, signal) {
     for await (const [header, bytes] of stream(`ask?view=${this.view}`, request, signal)) {
       if (header.answer === "error") throw new Error(header.message);

@@ -1,4 +1,5 @@
-// My experiment: releases of a dropped table over the basins, and how likely each end is for a hand that does not release exactly.
+// My experiment: releases of a dropped table over the basins, and how likely each end is for a hand that does not
+// release exactly.
 
 import { element } from "./element.js";
 import { asScene, unlabelled } from "./frames.js";
@@ -51,7 +52,8 @@ export class Experiment {
     for (const release of this.releases) release.name = null;
     try {
       for (const [i, release] of this.releases.entries()) {
-        const [found] = await pane.engine.answer({ request: "where", theta: release.theta, velocity: release.velocity, pendulum });
+        const [found] = await pane.engine.answer({ request: "where", theta: release.theta, velocity: release.velocity,
+          pendulum });
         if (mine !== this.comparing) return;
         release.name = found.attractor < 0 ? "not settled" : found.name;
         if (i % 20 === 0) this.show();
@@ -85,7 +87,8 @@ export function drawReleases(surface, plane, releases) {
     drawPoints(surface, plane, [[theta, velocity]], !name ? UNKNOWN : agrees(end, name) ? AGREES : DIFFERS, 4.5);
 }
 
-/** [[name, share], ...] of the ends inside of an ellipse about a place of a pane, the likeliest first; half axes in shares of its window. */
+/** [[name, share], ...] of the ends inside of an ellipse about a place of a pane, the likeliest first; half axes in
+ * shares of its window. */
 export function likelyEnds(pane, [across, up], [wide, high]) {
   const counts = new Map();
   let all = 0;

@@ -1,4 +1,5 @@
-// A film: one value of the pendulum moves from a first value to a last. Played on the page, or recorded picture by picture.
+// A film: one value of the pendulum moves from a first value to a last. Played on the page, or recorded picture by
+// picture.
 
 import { element } from "./element.js";
 import { pictureCanvas, pictureSize, pngOf, saveBlob } from "./save.js";
@@ -8,7 +9,8 @@ import { zipOf } from "./zip.js";
 const MOST = 1000; // pictures
 const RATE = 25; // pictures a second
 const KINDS = ["webm", "mp4"];
-const SWEPT = 0.65; // of half a slider: how far a sweep goes to either side of the scene's value, which the usual map holds
+// Of half a slider: how far a sweep goes to either side of the scene's value, which the usual map holds
+const SWEPT = 0.65;
 const EACH = 1 / 160; // of half a slider, a picture of a sweep
 const SKIPPED = 7; // pictures at most, where they are late
 const pause = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
@@ -50,7 +52,8 @@ export class Film {
     this.running = null;
   }
 
-  /** Starts what a button does, or ends what runs. The pendulum is then as before; not after the sweep of a slider, the value `swept`. */
+  /** Starts what a button does, or ends what runs. The pendulum is then as before; not after the sweep of a slider, the
+   * value `swept`. */
   async toggle(action, swept = null) {
     if (this.running) return this.stop();
     const mine = (this.running = { swept });
@@ -87,14 +90,16 @@ export class Film {
   /** Pictures that the film has. */
   count() {
     const count = Number(element("film-count").value);
-    if (!(Number.isInteger(count) && count >= 2 && count <= MOST)) throw new Error(`the number of pictures of a film must be from 2 to ${MOST}`);
+    if (!(Number.isInteger(count) && count >= 2 && count <= MOST)) throw new Error(
+      `the number of pictures of a film must be from 2 to ${MOST}`);
     return count;
   }
 
   /** To the last value and back, until it is stopped. */
   async play() {
     const count = this.count();
-    await this.loop(element("film-key").value, (n) => this.valueAt(n % (2 * count) < count ? n % count : count - 1 - (n % count), count));
+    await this.loop(element("film-key").value,
+      (n) => this.valueAt(n % (2 * count) < count ? n % count : count - 1 - (n % count), count));
   }
 
   /** Moves a slider there and back from where it is, until it is stopped or another one is swept. */
@@ -120,10 +125,12 @@ export class Film {
     return [Math.max(-SWEPT, Math.min(...edges)), Math.min(SWEPT, Math.max(...edges))];
   }
 
-  /** Shows value number n, each when the picture of the one before is there, until it is stopped; where pictures are late it skips so many. */
+  /** Shows value number n, each when the picture of the one before is there, until it is stopped; where pictures are
+   * late it skips so many. */
   async loop(name, valueOf, skips = 0) {
     const { running, basins } = this;
-    const waits = () => basins.active.top?.key !== JSON.stringify(basins.active.pendulum) && document.body.dataset.state !== "error";
+    const waits = () => basins.active.top?.key !== JSON.stringify(basins.active.pendulum)
+      && document.body.dataset.state !== "error";
     for (let n = 0, last = performance.now(); this.running === running; ) {
       this.set(name, valueOf(n));
       await pause(1000 / RATE);

@@ -12,7 +12,8 @@ export const HATCHING = 0.25; // how much darker every second stripe of them is
 /** The request for a frame that fills a canvas; `samples` x `samples` cells a pixel. */
 export function requestOf(window, pendulum, canvas, { quality, levels, samples, largest, shade, most: allowed }) {
   const most = allowed ?? (quality === "moving" && samples === 1 ? MOST_MOVING : MOST_RESTING);
-  const scale = Math.min(samples, Math.sqrt(most / (canvas.width * canvas.height)), largest / canvas.width, largest / canvas.height);
+  const scale = Math.min(samples, Math.sqrt(most / (canvas.width * canvas.height)), largest / canvas.width,
+    largest / canvas.height);
   const times = [...(quality === "exact" ? ["settling_time"] : []), ...(shade === "settling" ? ["smooth_time"] : [])];
   const sure = quality === "exact" ? ["doubt", "other", ...(shade === "turns" ? ["turns"] : [])] : [];
   const planes = ["labels", ...times, ...sure];
@@ -30,7 +31,8 @@ export function requestOf(window, pendulum, canvas, { quality, levels, samples, 
 
 /** A pendulum as a scene has it: what reads as a number is one, and what changes nothing is left out. */
 export function asScene(pendulum) {
-  const value = (text) => (typeof text === "string" && text.trim() !== "" && Number.isFinite(Number(text)) ? Number(text) : text);
+  const value = (text) => (typeof text === "string" && text.trim() !== "" && Number.isFinite(Number(text))
+    ? Number(text) : text);
   const given = Object.entries(pendulum).filter(([name, text]) => !isNeutral(name, text) && !isUnused(name, pendulum));
   return Object.fromEntries(given.map(([name, text]) => [name, value(text)]));
 }
@@ -51,7 +53,8 @@ export function decoded(header, bytes) {
 
 const palettes = new WeakMap();
 
-/** 256 colours of 4 bytes: colour i of label i of a catalogue; where `lit` is the key or the kind of attractors, those of all others are faded. */
+/** 256 colours of 4 bytes: colour i of label i of a catalogue; where `lit` is the key or the kind of attractors, those
+ * of all others are faded. */
 export function paletteOf(catalogue, lit = null) {
   if (!palettes.has(catalogue)) palettes.set(catalogue, new Map());
   const known = palettes.get(catalogue);
@@ -76,26 +79,30 @@ export function paletteOf(catalogue, lit = null) {
 /** The attractors of a catalogue, each with a key that tells mirror images of one name apart. */
 function keyed(catalogue) {
   const seen = {};
-  return catalogue.attractors.map((row) => ({ ...row, key: `${row.name} ${(seen[row.name] = (seen[row.name] ?? 0) + 1)}` }));
+  return catalogue.attractors
+    .map((row) => ({ ...row, key: `${row.name} ${(seen[row.name] = (seen[row.name] ?? 0) + 1)}` }));
 }
 
 /** A catalogue in the colours that another one, of another program, gives to the same attractors. */
 export function inColoursOf(catalogue, other) {
   if (!other || other === catalogue) return catalogue;
   const colours = new Map(keyed(other).map(({ key, colour }) => [key, colour]));
-  return { ...catalogue, attractors: keyed(catalogue).map((row) => ({ ...row, colour: colours.get(row.key) ?? row.colour })) };
+  return { ...catalogue, attractors: keyed(catalogue)
+    .map((row) => ({ ...row, colour: colours.get(row.key) ?? row.colour })) };
 }
 
 export function bytesOf(colour) {
   return [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
 }
 
-/** What a cell without a label is called: quick labels leave some open, exact ones only those of motions that settle nowhere. */
+/** What a cell without a label is called: quick labels leave some open, exact ones only those of motions that settle
+ * nowhere. */
 export function unlabelled({ quality }) {
   return quality === "moving" ? "not labelled yet" : "not settled";
 }
 
-/** The rows of a frame's catalogue with the shares of their labels and, where the frame has times, the mean settling time; mirror images may share a name. */
+/** The rows of a frame's catalogue with the shares of their labels and, where the frame has times, the mean settling
+ * time; mirror images may share a name. */
 export function sharesOf(frame) {
   return (frame.shares ??= countedShares(frame));
 }

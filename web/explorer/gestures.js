@@ -1,6 +1,7 @@
 // Wheel, trackpad, mouse and fingers on a canvas, as zooms, moves and clicks.
 
-const WHEEL = 0.0022; // natural logarithm of the zoom per pixel scrolled: a notch of 100 px zooms 1.25 times, 4 px hardly
+// Natural logarithm of the zoom per pixel scrolled: a notch of 100 px zooms 1.25 times, 4 px hardly
+const WHEEL = 0.0022;
 const PINCH = 0.012; // of the trackpad's pinch, which browsers send as a wheel with the control key, in smaller numbers
 const LINE = 33; // px of a line, where a wheel counts lines
 const PAGE = 400;
@@ -12,10 +13,8 @@ export function zoomOfWheel({ deltaY, deltaMode, ctrlKey }) {
   return Math.exp(pixels * (ctrlKey ? PINCH : WHEEL));
 }
 
-/**
- * What hands do on `canvas`. `target`: holds(x, y); zoom(factor, x, y), where it has that; move(dx, dy, x, y), click(x, y), hover(x, y) or
- * hover(null) in px; grip() and release() at the beginning and the end of a drag.
- */
+/** What hands do on `canvas`. `target`: holds(x, y); zoom(factor, x, y), where it has that; move(dx, dy, x, y),
+ * click(x, y), hover(x, y) or hover(null) in px; grip() and release() at the beginning and the end of a drag. */
 export function listen(canvas, target) {
   const fingers = new Map();
   let dragged = false;

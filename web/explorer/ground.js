@@ -1,4 +1,5 @@
-// The plane of two keys of the pendulum that the map shows, and what the server knows of it: a chart at once, then atlases.
+// The plane of two keys of the pendulum that the map shows, and what the server knows of it: a chart at once, then
+// atlases.
 
 import { Atlas } from "./atlas.js";
 import { stream } from "./engine.js";
@@ -12,7 +13,8 @@ const RIM = 1e-6; // of the plane, outside of which rounding may lie
 /** The keys that a map has where none are chosen: [along, up]. */
 export function usualKeys(names) {
   const along = names.find((name) => /^k$|frequency/.test(name)) ?? names[0];
-  return [along, names.find((name) => /amplitude|^m$/.test(name) && name !== along) ?? names.find((name) => name !== along)];
+  return [along, names.find((name) => /amplitude|^m$/.test(name) && name !== along)
+    ?? names.find((name) => name !== along)];
 }
 
 /** The edges of an axis about a value: amplitudes from 0, where nothing is driven and rest alone attracts. */
@@ -42,7 +44,8 @@ export function othersOf([x, y], pendulum) {
   return JSON.stringify({ ...pendulum, [x.name]: null, [y.name]: null });
 }
 
-/** Keys of a request that name the point of an atlas at which a pendulum lies, so that nothing is searched; none where it is on no map. */
+/** Keys of a request that name the point of an atlas at which a pendulum lies, so that nothing is searched; none where
+ * it is on no map. */
 export function listedAt(ground, pendulum) {
   if (!ground || ground.others !== othersOf(ground.axes, pendulum)) return {};
   const place = ground.axes.map((axis) => shareOf(axis, pendulum));
@@ -68,14 +71,16 @@ const asked = (axes) =>
  * @param {any[]} axes @param {object} pendulum @param {number} longest @param {AbortSignal} signal */
 export async function* atlases(axes, pendulum, longest, signal) {
   const [x, y] = asked(axes);
-  for await (const [header, bytes] of stream("atlas", { pendulum: asScene(pendulum), x, y, max_period: longest }, signal)) {
+  for await (const [header, bytes] of stream("atlas", { pendulum: asScene(pendulum), x, y, max_period: longest },
+    signal)) {
     if (header.answer === "error") throw new Error(header.message);
     if (header.answer === "atlas") yield new Atlas(header, bytes);
   }
 }
 
 /** The levels of its chart, each [header, bytes].
- * @param {import("./engine.js").Engine} engine @param {any[]} axes @param {object} pendulum @param {AbortSignal} signal */
+ * @param {import("./engine.js").Engine} engine @param {any[]} axes @param {object} pendulum
+ * @param {AbortSignal} signal */
 export async function* charts(engine, axes, pendulum, signal) {
   const [x, y] = asked(axes).map((axis) => ({ ...axis, count: CELLS }));
   const request = { request: "chart", pendulum: asScene(pendulum), x, y, levels: [8, 4, 2, 1] };

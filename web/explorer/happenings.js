@@ -2,8 +2,8 @@
 
 const NAMED = 3; // motions of a sentence that names several
 
-/** A sentence on the way from one place of an atlas to another: on the curve that it crosses; where there are several, on
- * what lives at its ends. "" where nothing happens. */
+/** A sentence on the way from one place of an atlas to another: on the curve that it crosses; where there are several,
+ * on what lives at its ends. "" where nothing happens. */
 export function happening(atlas, from, to) {
   const crossings = atlas.crossed(from, to);
   if (!crossings.length) return "";
@@ -35,7 +35,8 @@ function beside({ at }, from, to, reach) {
 
 /** Motions that a place has more, and less, than another. */
 function changed(atlas, from, to) {
-  const [before, after] = [from, to].map((place) => new Map(atlas.motionsAt(place).map((motion) => [motion.name, motion])));
+  const [before, after] = [from, to]
+    .map((place) => new Map(atlas.motionsAt(place).map((motion) => [motion.name, motion])));
   const more = (one, other) => [...one.values()].filter(({ name, count }) => count > (other.get(name)?.count ?? 0));
   return { born: more(after, before), gone: more(before, after) };
 }
@@ -53,13 +54,15 @@ function sentence(atlas, { curve, point, into }, { born, gone }) {
   const { name, kind } = curve;
   const child = (into ? gone : born).find((motion) => isChild(curve, motion))?.name;
   const attracts = atlas.supercritical[point] === 1;
-  if (kind === "fold") return into ? `${name} is born: a stable and an unstable motion part (fold)` : `${name} ends: it meets an unstable motion (fold)`;
+  if (kind === "fold") return into ? `${name} is born: a stable and an unstable motion part (fold)`
+    : `${name} ends: it meets an unstable motion (fold)`;
   if (kind === "rest_leans") {
     if (into) return `${name} becomes stable`;
     return `${name} is no longer stable: the pendulum leans to a side${child ? ` (${child})` : ""}`;
   }
   const way = kind === "symmetry_breaking" ? "by losing symmetry" : "by period doubling";
-  if (into) return attracts ? `${name} is stable again${child ? `; ${child} ends in it` : ""}` : `${name} becomes stable`;
+  if (into) return attracts ? `${name} is stable again${child ? `; ${child} ends in it` : ""}`
+    : `${name} becomes stable`;
   if (!attracts) return `${name} loses its stability ${way}: nothing near it takes over`;
   return child ? `${child} is born: ${name} loses its stability ${way}` : `${name} loses its stability ${way}`;
 }

@@ -2,8 +2,8 @@
 
 import { TURN } from "./window.js";
 
-/** By the word of the state: how much darker late ends are drawn (`depth`, 0 to 1), the shade that leaves a colour as it is (`middle`), and whether
- * shades are those of a raised frame. */
+/** By the word of the state: how much darker late ends are drawn (`depth`, 0 to 1), the shade that leaves a colour as
+ * it is (`middle`), and whether shades are those of a raised frame. */
 const MIDDLE = 0.5; // of a relief: the colour of a basin is on the mean that of its line in the list
 const SHADINGS = {
   relief: { depth: 0.5, middle: MIDDLE, own: true },
@@ -56,14 +56,16 @@ export function raise(frame, coarse) {
   frame.raised = true;
 }
 
-/** The cell at a row and a column, beyond the edges the nearest one; round the circle, where the frame is a whole turn of it. */
+/** The cell at a row and a column, beyond the edges the nearest one; round the circle, where the frame is a whole turn
+ * of it. */
 function cellOf({ rows, columns, window }, row, column) {
   const turns = Math.abs((window?.theta.width ?? 0) - TURN) < WHOLE;
   const x = turns ? (column + columns) % columns : Math.max(0, Math.min(columns - 1, column));
   return Math.max(0, Math.min(rows - 1, row)) * columns + x;
 }
 
-/** Shades of the cells of a frame with smooth times, 0 (light) to 1: late ends lie deep, and light comes from the upper left. */
+/** Shades of the cells of a frame with smooth times, 0 (light) to 1: late ends lie deep, and light comes from the upper
+ * left. */
 function litOf(frame) {
   const { rows, columns, labels, cells } = frame;
   const [low, high] = spreadOf(cells);
@@ -105,7 +107,8 @@ function smoothed(frame, values) {
 }
 
 /** The time of a cell, on the scale of `cells`, 0 to 1. */
-const depthOf = ({ smooth, cells }, i) => (smooth ? Math.log2(1 + (smooth[i] || 0)) / DOUBLINGS : cells[4 * i + 1] / 255);
+const depthOf = ({ smooth, cells }, i) => (smooth ? Math.log2(1 + (smooth[i] || 0)) / DOUBLINGS
+  : cells[4 * i + 1] / 255);
 
 function spreadOf(cells) {
   const counts = new Uint32Array(256);

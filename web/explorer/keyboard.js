@@ -3,7 +3,8 @@
 import { element } from "./element.js";
 import { LEVELS } from "./state.js";
 
-const STAYS = ["cancel", "home", "back", "forward", "tell", "nearest", "fill-basins", "fill-motion"]; // keys of these show no more than before
+// Keys of these show no more than before
+const STAYS = ["cancel", "home", "back", "forward", "tell", "nearest", "fill-basins", "fill-motion"];
 const STEP = 1 / 8; // of the window
 const ZOOM = 1.6;
 
@@ -42,7 +43,8 @@ function actionsOn(state, basins) {
     [["b"], "show saddles and what boundaries are made of, or not", () => press("saddles")],
     [["Enter"], "play the start in the middle", () => basins.click(basins.active, 0.5, 0.5)],
     [[" "], "play or pause", () => press("play")],
-    [["f"], "the basins fill the page, or not", () => press(document.body.dataset.filled === "motion" ? "fill-motion" : "fill-basins")],
+    [["f"], "the basins fill the page, or not", () => press(document.body.dataset.filled === "motion" ? "fill-motion"
+      : "fill-basins")],
     [["p"], "the pendulum fills the page, or not", () => press("fill-motion")],
     [["m"], "show the map, or not", () => press("map-shown")],
     [["c"], "compare two pendulums, or not", () => press("compare")],
@@ -54,7 +56,7 @@ function actionsOn(state, basins) {
 
 const NAMES = { " ": "space", ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓" };
 
-/** Keys that an element with the focus takes itself: texts take all, lists those that choose, buttons and boxes those that press.
+/** Keys that an element with the focus takes: texts all, lists those that choose, buttons and boxes those to press.
  * @type {[string, RegExp][]} */
 const OWN = [
   ["input[type=range]", /^Arrow|^Page|^Home|^End/],

@@ -1,4 +1,5 @@
-// The legend: a line for each end, in an order that does not depend on its share, so that nothing jumps while things move.
+// The legend: a line for each end, in an order that does not depend on its share, so that nothing jumps while things
+// move.
 
 import { sharesOf } from "./frames.js";
 import { signed } from "./ticks.js";
@@ -6,8 +7,8 @@ import { byKind, EXPLAINED, ORDER } from "./words.js";
 
 const MARKED = 4000; // ms
 
-/** Rows of the last frames of panes: {key, name, colour, shares: [of a, of b]}; null: not known, as a picture was given up before
- * any frame of its window came. `kinds`: one row for each kind of motion. */
+/** Rows of the last frames of panes: {key, name, colour, shares: [of a, of b]}; null: not known, as a picture was given
+ * up before any frame of its window came. `kinds`: one row for each kind of motion. */
 export function rowsOf(panes, kinds = false) {
   const rows = new Map();
   panes.forEach((pane, number) => {
@@ -20,7 +21,8 @@ export function rowsOf(panes, kinds = false) {
   const all = kinds ? byKind([...rows.values()]) : [...rows.values()];
   return all.sort(
     (one, two) =>
-      ORDER.indexOf(one.kind) - ORDER.indexOf(two.kind) || one.period - two.period || one.winding - two.winding || one.id - two.id,
+      ORDER.indexOf(one.kind) - ORDER.indexOf(two.kind) || one.period - two.period || one.winding - two.winding
+        || one.id - two.id,
   );
 }
 
@@ -72,7 +74,8 @@ function newLine(row, comes) {
   line.insertCell().append(patch);
   if (row.id < 0) line.insertCell().textContent = row.name;
   else {
-    const button = Object.assign(document.createElement("button"), { textContent: signed(row.name), title: EXPLAINED[row.kind] });
+    const button = Object.assign(document.createElement("button"),
+      { textContent: signed(row.name), title: EXPLAINED[row.kind] });
     button.append(Object.assign(document.createElement("small"), { textContent: ` ${EXPLAINED[row.kind]}` }));
     button.setAttribute("aria-pressed", "false");
     line.insertCell().append(button);
@@ -80,10 +83,8 @@ function newLine(row, comes) {
   return line;
 }
 
-/**
- * Lights the basin of the line that the pointer or the focus is on, and keeps it lit where the line is clicked. `state.lit`: key of the
- * basin that is lit; `state.pinned`: of the one that was clicked.
- */
+/** Lights the basin of the line that the pointer or the focus is on, and keeps it lit where the line is clicked.
+ * `state.lit`: key of the basin that is lit; `state.pinned`: of the one that was clicked. */
 export function listenLegend(table, state, play) {
   const keyAt = (event) => {
     const line = event.target.closest("tr");
@@ -91,7 +92,8 @@ export function listenLegend(table, state, play) {
   };
   const light = (event) => state.change({ lit: keyAt(event) ?? state.pinned });
   for (const kind of ["pointerover", "focusin"]) table.addEventListener(kind, light);
-  for (const kind of ["pointerleave", "focusout"]) table.addEventListener(kind, () => state.change({ lit: state.pinned }));
+  for (const kind of ["pointerleave", "focusout"]) table.addEventListener(kind,
+    () => state.change({ lit: state.pinned }));
   table.addEventListener("click", (event) => {
     const key = keyAt(event);
     if (!key) return;
@@ -101,6 +103,7 @@ export function listenLegend(table, state, play) {
   });
   state.listen((keys) => {
     if (!keys.has("pinned")) return;
-    for (const line of table.rows) line.querySelector("button")?.setAttribute("aria-pressed", String(line.dataset.key === state.pinned));
+    for (const line of table.rows) line.querySelector("button")?.setAttribute("aria-pressed",
+      String(line.dataset.key === state.pinned));
   });
 }

@@ -40,7 +40,8 @@ async function begin() {
   Object.assign(state, remembered(), readAddress(location.hash, { pendulum: scene }));
   state.home = state.whole.centred(state.middle);
   state.window ??= state.home;
-  for (const [kind, colour] of Object.entries(state.kinds)) document.documentElement.style.setProperty(`--${idOf(kind)}`, colour);
+  for (const [kind, colour] of Object.entries(state.kinds)) document.documentElement.style.setProperty(
+    `--${idOf(kind)}`, colour);
   const titleKeys = ["title", "pendulum", "scene", "level"];
   const showTitle = () => {
     document.title = state.shownTitle;
@@ -68,7 +69,8 @@ async function begin() {
 
 /** Numbers as texts; lists and mappings stay. */
 function textsOf(pendulum) {
-  return Object.fromEntries(Object.entries(pendulum).map(([name, value]) => [name, typeof value === "number" ? String(value) : value]));
+  return Object.fromEntries(Object.entries(pendulum)
+    .map(([name, value]) => [name, typeof value === "number" ? String(value) : value]));
 }
 
 function setTheme(state) {

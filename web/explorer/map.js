@@ -16,7 +16,8 @@ const CHART = 1200; // ms that the curves may take; where they take more, a char
 const REST = 900; // ms without a change of other keys, after which the map is made anew
 const REACH = 7; // px within which a curve is named
 const STEP = 0.01; // of the map that an arrow moves the point
-const DASHES = { fold: [], period_doubling: [6, 3], symmetry_breaking: [2, 2], rest_swings: [6, 3], rest_leans: [2, 2] };
+const DASHES = { fold: [], period_doubling: [6, 3], symmetry_breaking: [2, 2], rest_swings: [6, 3],
+  rest_leans: [2, 2] };
 const [FEW, MANY] = [2, 4]; // drive periods of motions whose curves are drawn, at most, and where more are asked for
 const CURVE = "#5a646e";
 const PENDING = "One start near inverted:";
@@ -159,7 +160,8 @@ export class MotionMap {
     };
     const curves = taken(atlases(this.axes, this.pendulum, this.longest, signal), atlas, signal);
     await Promise.race([curves, new Promise((resolve) => setTimeout(resolve, CHART))]);
-    const others = this.atlas ? null : taken(charts(this.engine, this.axes, this.pendulum, instead.signal), chart, instead.signal);
+    const others = this.atlas ? null : taken(charts(this.engine, this.axes, this.pendulum, instead.signal), chart,
+      instead.signal);
     const [failure] = await Promise.all([curves, others]);
     if (failure && !signal.aborted) this.note(`No curves: ${failure.message}`);
   }
@@ -236,7 +238,8 @@ export class MotionMap {
     const curve = this.atlas.nearest(place, [REACH / width, REACH / height], this.longest);
     const motions = this.atlas.motionsAt(place);
     const title = document.createElement("strong");
-    title.textContent = regionWords(this.atlas, place) + (curve ? ` (${curve.name}: ${curve.kind.replace("_", " ")})` : "");
+    title.textContent = regionWords(this.atlas, place) + (curve ? ` (${curve.name}: ${curve.kind.replace("_", " ")})`
+      : "");
     const lines = motions.map(({ name, colour, count }) => {
       const line = document.createElement("span");
       const patch = Object.assign(document.createElement("span"), { className: "patch" });
@@ -295,7 +298,8 @@ export class MotionMap {
     surface.clipped(plane.box, () => {
       if (this.picture) surface.image(this.picture.canvas, plane.box);
       if (!this.atlas) hatch(surface, plane.box);
-      for (const curve of this.atlas?.curves ?? []) if (curve.period <= this.longest) this.drawCurve(surface, plane, curve);
+      for (const curve of this.atlas?.curves ?? []) if (curve.period <= this.longest) this.drawCurve(surface, plane,
+        curve);
     });
     drawAxes(surface, plane, this.words);
     this.drawPoint();
@@ -303,12 +307,14 @@ export class MotionMap {
 
   /** Words of its axes, as planes have them. */
   get words() {
-    const [theta, velocity] = this.axes.map(({ name, unit }) => ({ words: keyWords(name) + (unit ? ` (${unit})` : "") }));
+    const [theta, velocity] = this.axes
+      .map(({ name, unit }) => ({ words: keyWords(name) + (unit ? ` (${unit})` : "") }));
     return { theta, velocity };
   }
 
   drawCurve(surface, plane, { kind, first, points }) {
-    const line = Array.from({ length: points }, (_, i) => plane.placeOf(this.atlas.x[first + i], this.atlas.y[first + i]));
+    const line = Array.from({ length: points }, (_, i) => plane.placeOf(this.atlas.x[first + i],
+      this.atlas.y[first + i]));
     surface.line(line, CURVE, kind.startsWith("rest") ? 1.4 : 0.8, DASHES[kind]);
   }
 

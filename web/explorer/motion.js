@@ -10,8 +10,9 @@ const START = 8; // px, radius of the ring at the start
 const PAUSE = 1.5; // drive periods that the end is shown, before it begins anew
 
 export class Motion {
-  /** Of an answer to the request orbit: samples of theta and velocity, and the pivot's path over a drive period. `cycle`: the answer for one period of
-   * the cycle in which it ends, from a strobe point; null where that is not known. */
+  /** Of an answer to the request orbit: samples of theta and velocity, and the pivot's path over a drive period.
+   * `cycle`: the answer for one period of the cycle in which it ends, from a strobe point; null where that is not
+   * known. */
   constructor(header, bytes, ending, cycle = null) {
     const numbers = new Float64Array(bytes.buffer);
     this.theta = numbers.slice(0, header.samples);
@@ -57,7 +58,8 @@ export class Motion {
     return Array.from({ length: Math.floor(this.at) - first + 1 }, (_, i) => first + i);
   }
 
-  /** The start, strobe points until now where they are wanted, the trace of the phase point, and the point itself in the colour of its end. */
+  /** The start, strobe points until now where they are wanted, the trace of the phase point, and the point itself in
+   * the colour of its end. */
   drawOver(surface, plane, isStrobed, bob = "#ffffff") {
     const strobe = [];
     if (isStrobed) for (let i = 0; i <= this.at; i += this.perPeriod) strobe.push([this.theta[i], this.velocity[i]]);
@@ -85,8 +87,8 @@ export class Motion {
     return this.theta[i] - TURN * Math.floor(this.theta[i] / TURN);
   }
 
-  /** [[frequency, amplitude], ...] of the velocity, in drive frequencies up to `most`: of the cycle, as what is left of the way there leaks between its
-   * lines; of the last LONGEST drive periods where the end has no period. */
+  /** [[frequency, amplitude], ...] of the velocity, in drive frequencies up to `most`: of the cycle, as what is left of
+   * the way there leaks between its lines; of the last LONGEST drive periods where the end has no period. */
   spectrum(most) {
     if (this.lines) return this.lines;
     const last = this.steady.length - 1;
@@ -123,21 +125,25 @@ export class Motion {
     surface.line([[x, y], bob(angle, pivot)], theme.ink, Math.max(3, 0.045 * rod));
     surface.circle(x, y, Math.max(4, 0.05 * rod), theme.ink, theme.ink);
     surface.circle(...bob(angle, pivot), Math.max(8, 0.12 * rod), theme.bob ?? theme.mark, theme.ink);
-    surface.text(units.omega ? units.time(this.period) : `shake ${this.period}`, 6, height - 8, "left", { colour: theme.faint });
-    if (slower) surface.text(`${Number(slower.toPrecision(2))} times slower than life`, 6, height - 28, "left", { colour: theme.faint });
+    surface.text(units.omega ? units.time(this.period) : `shake ${this.period}`, 6, height - 8, "left",
+      { colour: theme.faint });
+    if (slower) surface.text(`${Number(slower.toPrecision(2))} times slower than life`, 6, height - 28, "left",
+      { colour: theme.faint });
   }
 
   /** Lines of time (drive radians), theta, velocity, the pivot's height and how far it is aside. */
   toCsv() {
     const lines = ["time_drive_radians,theta_rad,velocity_rad_per_drive_radian,pivot_height,pivot_aside"];
     for (let i = 0; i <= this.last; i++)
-      lines.push([(TURN * i) / this.perPeriod, this.theta[i], this.velocity[i], ...this.pivotAt(i).reverse()].join(","));
+      lines.push([(TURN * i) / this.perPeriod, this.theta[i], this.velocity[i], ...this.pivotAt(i).reverse()]
+        .join(","));
     return `${lines.join("\n")}\n`;
   }
 }
 
 /** Drive periods after which a start is near its end for good. */
-export const settledAfter = ({ settling_time: certain, near_time: near }) => Math.max(certain ?? 0, Number.isFinite(near) ? near : 0);
+export const settledAfter = ({ settling_time: certain, near_time: near }) => Math.max(certain ?? 0,
+  Number.isFinite(near) ? near : 0);
 
 /** Where a start ends, in plain words. */
 export function plainEnding({ attractor, name }) {
@@ -150,7 +156,8 @@ export function endingWords(ending, units) {
   const from = `from θ = ${angle}, velocity ${speed}`;
   if (ending.attractor < 0) return `not settled\n${from}`;
   const near = Number.isFinite(ending.near_time) ? `, within 1° after ${units.time(ending.near_time)}` : "";
-  const sure = ending.decided ? "decided: no rounding error can change this end" : `not decided: ${ending.name} or ${ending.other_name ?? "another"}`;
+  const sure = ending.decided ? "decided: no rounding error can change this end"
+    : `not decided: ${ending.name} or ${ending.other_name ?? "another"}`;
   const certain = ending.settling_time > 0 ? `certain after ${units.time(ending.settling_time)}` : "certain at once";
   return `ends on ${ending.name}: ${certain}${near}\n${from}\n${sure}`;
 }

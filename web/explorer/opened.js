@@ -7,7 +7,8 @@ import { readAddress } from "./state.js";
 import { Window } from "./window.js";
 
 
-/** Calls what takes a file of its kind: `kinds` has [pattern of names, what takes it], the first that fits is called. */
+/** Calls what takes a file of its kind: `kinds` has [pattern of names, what takes it], the first that fits is
+ * called. */
 export function listenFiles(kinds) {
   const take = (file) => file && kinds.find(([pattern]) => pattern.test(file.name))[1](file);
   element("panes").addEventListener("dragover", (event) => event.preventDefault());
@@ -24,7 +25,8 @@ export function listenFiles(kinds) {
 /** Shows the view that a picture holds. */
 export async function openPicture(state, file) {
   const text = textsIn(new Uint8Array(await file.arrayBuffer()))[VIEW_IN_PNG];
-  if (!text) throw new Error(`${file.name}: the picture holds no view; pictures that this page saves as PNG hold theirs`);
+  if (!text) throw new Error(
+    `${file.name}: the picture holds no view; pictures that this page saves as PNG hold theirs`);
   const { title, scene, whole: edges, pivotFrequency, address } = JSON.parse(text);
   const whole = Window.from(edges);
   /** @type {any} */ const found = { start: null, ...readAddress(address, { pendulum: scene }) };

@@ -9,8 +9,9 @@ const VERTICES = `#version 300 es
 in vec2 corner;
 void main() { gl_Position = vec4(corner, 0.0, 1.0); }`;
 
-// A pixel is the mean, in light (about the square of a colour's number), of the cells that it covers. In `cells`: label, time until the end is
-// certain, doubt, the other candidate. Cells without a label (255) are hatched where they may still get one.
+// A pixel is the mean, in light (about the square of a colour's number), of the cells that it covers. In `cells`:
+// label, time until the end is certain, doubt, the other candidate. Cells without a label (255) are hatched where they
+// may still get one.
 const FRAGMENTS = `#version 300 es
 precision highp float;
 precision highp int;
@@ -31,7 +32,8 @@ vec3 lightOf(ivec2 cell, bool second) {
   vec3 colour = texelFetch(palette, ivec2(int(label * 255.0 + 0.5), 0), 0).rgb;
   bool dark = mod(floor((gl_FragCoord.x - gl_FragCoord.y) / 4.0), 2.0) == 1.0;
   if (label == 1.0 && dark) colour *= 1.0 - hatching;
-  return colour * colour * lightest * (1.0 - shading * clamp((found.g - heights.x) / (heights.y - heights.x), 0.0, 1.0));
+  return colour * colour * lightest * (1.0 - shading * clamp((found.g - heights.x) / (heights.y - heights.x), 0.0,
+    1.0));
 }
 
 void main() {
@@ -49,10 +51,8 @@ void main() {
   colour = vec4(sqrt(sum / float(count.x * count.y)), 1.0);
 }`;
 
-/**
- * A frame of labels as the painters keep it: `cells` holds 4 bytes a cell, rows from the lowest velocity up; `planes` as the
- * program sent them; `palette`: 256 colours of 4 bytes, colour i of label i.
- */
+/** A frame of labels as the painters keep it: `cells` holds 4 bytes a cell, rows from the lowest velocity up; `planes`
+ * as the program sent them; `palette`: 256 colours of 4 bytes, colour i of label i. */
 export function frameOf(header, planes, window, palette) {
   const { rows, columns } = header;
   const cells = new Uint8Array(4 * rows * columns);

@@ -1,4 +1,5 @@
-// One picture of basins: it asks the program for frames, keeps the last ones, and draws them with axes and marks over them.
+// One picture of basins: it asks the program for frames, keeps the last ones, and draws them with axes and marks over
+// them.
 
 import { drawOverBasins } from "./above.js";
 import { Engine } from "./engine.js";
@@ -30,7 +31,7 @@ export class Pane {
    * @param {import("./state.js").State} state
    * @param {object} calls
    * @param {(pane: Pane) => void} calls.report is called for every frame
-   * @param {(pane: Pane, doing: string, words: string, share?: number) => void} calls.say is called with what it does */
+   * @param {(pane: Pane, doing: string, words: string, share?: number) => void} calls.say hears it */
   constructor(root, name, state, { report, say }) {
     this.root = root;
     this.name = name;
@@ -49,7 +50,8 @@ export class Pane {
     this.version = 0;
     this.most = MOST_MOVING;
     this.lent = 0; // others ask its program for frames, which end its own
-    this.plain = { motion: null, marks: [], cursor: null, pointed: null, overlays: [], skeleton: null, releases: [], spread: null, bob: null, veil: null };
+    this.plain = { motion: null, marks: [], cursor: null, pointed: null, overlays: [], skeleton: null, releases: [],
+      spread: null, bob: null, veil: null };
     this.controller = new AbortController();
     new ResizeObserver(() => this.resized()).observe(root);
     new IntersectionObserver(() => this.draw()).observe(root); // what changed out of sight may not have been drawn
@@ -79,7 +81,8 @@ export class Pane {
     return frame.window.equals(this.state.window.centred("hanging"));
   }
 
-  /** The frames that are drawn: those of the window alone once one of them has every cell, lest patches of others stay. */
+  /** The frames that are drawn: those of the window alone once one of them has every cell, lest patches of others
+   * stay. */
   get drawnFrames() {
     const window = this.window.centred("hanging");
     const own = this.frames.filter((frame) => frame.window.equals(window));
@@ -94,9 +97,11 @@ export class Pane {
   resized() {
     const ratio = devicePixelRatio || 1;
     const [left, top, width, height] = this.plane.box;
-    Object.assign(this.over, { width: Math.round(this.over.clientWidth * ratio), height: Math.round(this.over.clientHeight * ratio) });
+    Object.assign(this.over, { width: Math.round(this.over.clientWidth * ratio),
+      height: Math.round(this.over.clientHeight * ratio) });
     Object.assign(this.basins, { width: Math.round(width * ratio), height: Math.round(height * ratio) });
-    Object.assign(this.basins.style, { left: `${left}px`, top: `${top}px`, width: `${width}px`, height: `${height}px` });
+    Object.assign(this.basins.style, { left: `${left}px`, top: `${top}px`, width: `${width}px`,
+      height: `${height}px` });
     this.draw();
     this.changed();
   }
@@ -142,7 +147,8 @@ export class Pane {
     if (this.moving) return;
     const step = () => {
       this.moving = !this.window.equals(this.state.window);
-      const near = Math.abs(Math.log(this.state.window.theta.width / this.window.theta.width)) < 0.004 && this.nearlyThere();
+      const near = Math.abs(Math.log(this.state.window.theta.width / this.window.theta.width)) < 0.004
+        && this.nearlyThere();
       this.window = near || this.state.jump ? this.state.window : this.window.towards(this.state.window, this.ease());
       this.drawNow();
       if (this.moving) requestAnimationFrame(step);
@@ -162,7 +168,8 @@ export class Pane {
     return Math.abs(left) < 0.004 && Math.abs(bottom) < 0.004;
   }
 
-  /** Asks for frames until the last one wanted is there: quickly while things change, then as right and fine as asked for. */
+  /** Asks for frames until the last one wanted is there: quickly while things change, then as right and fine as asked
+   * for. */
   async pursue() {
     if (this.pursuing) return;
     this.pursuing = true;
@@ -186,7 +193,8 @@ export class Pane {
     this.pursuing = false;
   }
 
-  /** After a failure: whether the same frames are asked for once more, because others have ended them, and nobody has cancelled them. */
+  /** After a failure: whether the same frames are asked for once more, because others have ended them, and nobody has
+   * cancelled them. */
   async again(error, version) {
     const wanted = () => version === this.version && !this.closed;
     if (!wanted()) return false;
@@ -208,8 +216,11 @@ export class Pane {
     const { quality } = this.state;
     const samples = Number(this.state.samples);
     this.say(this, "computing", quality === "exact" ? "deciding every label ..." : "computing more samples ...", 0);
-    if (quality === "exact" && this.most < MOST_MOVING) await this.frame({ quality: "moving", levels: [1], samples: 1 }); // what is seen meanwhile
-    if (quality === "exact" || samples > 1 || this.most < MOST_MOVING) await this.frame({ quality, levels: [8, 4, 2, 1], samples });
+    // What is seen meanwhile
+    if (quality === "exact" && this.most < MOST_MOVING) await this.frame(
+      { quality: "moving", levels: [1], samples: 1 });
+    if (quality === "exact" || samples > 1 || this.most < MOST_MOVING) await this.frame(
+      { quality, levels: [8, 4, 2, 1], samples });
     if (version === this.version) await this.shade();
     if (version !== this.version) return;
     this.complete = version;
@@ -236,7 +247,8 @@ export class Pane {
     raise(frame, await this.glance(window, size, { shade: "settling", most: COARSE, engine }));
   }
 
-  /** A frame of any window, of that many cells; quick unless `quality` and `shade` say otherwise; of another program where `engine` is given. */
+  /** A frame of any window, of that many cells; quick unless `quality` and `shade` say otherwise; of another program
+   * where `engine` is given. */
   async glance(window, size, { quality = "moving", shade = "none", most = undefined, engine = this.engine } = {}) {
     const settings = { quality, shade, most, levels: [1], samples: 1, largest: LARGEST };
     const request = requestOf(window, this.pendulum, size, settings);
@@ -250,7 +262,8 @@ export class Pane {
 
   async frame({ quality, levels, samples, most = undefined }) {
     const { pendulum } = this;
-    const window = this.state.window.centred("hanging"); // a whole circle that is its own mirror image takes half the work
+    // A whole circle that is its own mirror image takes half the work
+    const window = this.state.window.centred("hanging");
     const settings = {
       quality,
       levels,
@@ -272,7 +285,8 @@ export class Pane {
       if (!same && !header.final && performance.now() - this.begun < QUIET) continue;
       const { catalogue } = this.engine;
       const full = { ...header, full: [request.rows, request.columns] };
-      const made = Object.assign(frameOf(full, decoded(header, bytes), window, paletteOf(catalogue, this.state.lit)), { key, catalogue, quality, samples });
+      const made = Object.assign(frameOf(full, decoded(header, bytes), window, paletteOf(catalogue, this.state.lit)),
+        { key, catalogue, quality, samples });
       this.keep(made, last);
       this.arrived = true;
       last = made;
@@ -288,10 +302,12 @@ export class Pane {
 
   /** A new frame, which takes the place of the coarser one of the same request. */
   keep(frame, coarser) {
-    const covered = (old) => old.key !== frame.key || old === coarser || (frame.level === 1 && old.window.equals(frame.window));
+    const covered = (old) => old.key !== frame.key || old === coarser
+      || (frame.level === 1 && old.window.equals(frame.window));
     for (const old of this.frames.filter(covered)) this.painter.forget(old);
     this.frames = [...this.frames.filter((old) => !covered(old)), frame].sort((one, two) => cellOf(two) - cellOf(one));
-    while (this.frames.length > MOST_FRAMES) this.painter.forget(...this.frames.splice(this.frames[0] === frame ? 1 : 0, 1));
+    while (this.frames.length > MOST_FRAMES) this.painter.forget(
+      ...this.frames.splice(this.frames[0] === frame ? 1 : 0, 1));
     this.latest = frame;
     this.blur();
     this.blurLate();
@@ -307,8 +323,8 @@ export class Pane {
     this.say(this, "error", error.message);
   }
 
-  /** Gives up the labels that are being decided. The quick ones before them, without which nothing shows the window wanted, are
-   * given up BLIND after they were asked for, or when this is called again. */
+  /** Gives up the labels that are being decided. The quick ones before them, without which nothing shows the window
+   * wanted, are given up BLIND after they were asked for, or when this is called again. */
   cancel() {
     if (!this.pursuing || this.complete === this.version) return;
     const left = this.resting || this.stopped === this.version ? 0 : BLIND - (performance.now() - this.begun);
@@ -345,8 +361,10 @@ export class Pane {
     for (const frame of this.drawnFrames.filter((one) => one.key === key).reverse()) {
       const { place, period } = placementOf(frame, this.window);
       const x = ((across - place[0]) / place[2]) % period;
-      const [column, row] = [Math.floor((x < 0 ? x + period : x) * frame.columns), Math.floor(((up - place[1]) / place[3]) * frame.rows)];
-      if (column >= 0 && column < frame.columns && row >= 0 && row < frame.rows) return { frame, cell: row * frame.columns + column };
+      const [column, row] = [Math.floor((x < 0 ? x + period : x) * frame.columns),
+        Math.floor(((up - place[1]) / place[3]) * frame.rows)];
+      if (column >= 0 && column < frame.columns && row >= 0 && row < frame.rows) return { frame,
+        cell: row * frame.columns + column };
     }
     return null;
   }

@@ -15,25 +15,30 @@ const timeOf = (periods, units) => units.time(Number(periods.toPrecision(3)));
 const returnTime = ({ period, multiplier }, units) =>
   period > 0 && multiplier > 0 && multiplier < 1 ? `return time ${timeOf(-period / Math.log(multiplier), units)}` : "";
 
-/** The measures of a basin in one line, for the pointer: a row of `sharesOf`, and the words of its smallest push as far as they are known;
- * `units`: of the page. */
+/** The measures of a basin in one line, for the pointer: a row of `sharesOf`, and the words of its smallest push as far
+ * as they are known; `units`: of the page. */
 export function measureWords(row, push, units) {
   const settling = row.settling > 0 ? `settles in ${timeOf(row.settling, units)} (mean)` : "";
   const share = row.share === null ? "" : `${shareWords(row.share)} of this window`;
   return [share, settling, returnTime(row, units), push].filter(Boolean).join(", ");
 }
 
-/** What is known of an attractor itself, in words; `share`: of its basin. Measures of other kinds join here as further lines. */
+/** What is known of an attractor itself, in words; `share`: of its basin. Measures of other kinds join here as further
+ * lines. */
 export function passportWords(row, share, units) {
   const { name, period, winding, symmetric, multiplier, strobe, mean_velocity } = row;
-  const closes = period > 0 ? `closes after ${units.time(period)}` : winding === 0 ? "chaotic" : `never closes, mean velocity ${units.velocity(mean_velocity.toPrecision(5))}`;
-  const turns = winding === 0 || period === 0 ? "" : `, ${Math.abs(winding)} turn${Math.abs(winding) === 1 ? "" : "s"} in them`;
+  const closes = period > 0 ? `closes after ${units.time(period)}` : winding === 0 ? "chaotic"
+    : `never closes, mean velocity ${units.velocity(mean_velocity.toPrecision(5))}`;
+  const turns = winding === 0 || period === 0 ? ""
+    : `, ${Math.abs(winding)} turn${Math.abs(winding) === 1 ? "" : "s"} in them`;
   const image = symmetric ? "its own mirror image" : "has a mirror image";
   const back = returnTime(row, units) && `, ${returnTime(row, units)}`;
-  const head = `${name}:${share === null ? "" : ` ${shareWords(share)} of this window;`} ${EXPLAINED[row.kind]}\n${closes}${turns}; ${image}`;
+  const part = share === null ? "" : ` ${shareWords(share)} of this window;`;
+  const head = `${name}:${part} ${EXPLAINED[row.kind]}\n${closes}${turns}; ${image}`;
   if (period === 0) return head;
   const [theta, velocity] = strobe[0].map((value) => value.toPrecision(5));
-  return `${head}\nlargest multiplier ${multiplier.toPrecision(4)}${back}; strobe point θ ${units.angle(theta)}, velocity ${units.velocity(velocity)}`;
+  const point = `strobe point θ ${units.angle(theta)}, velocity ${units.velocity(velocity)}`;
+  return `${head}\nlargest multiplier ${multiplier.toPrecision(4)}${back}; ${point}`;
 }
 
 /** The strongest lines of a motion's spectrum, in words. */
@@ -41,7 +46,8 @@ export function spectrumWords(motion, units) {
   const lines = motion.spectrum(HIGHEST).filter(([frequency, amplitude]) => frequency > 0 && amplitude > FAINT);
   const strongest = lines.sort(([, one], [, other]) => other - one).slice(0, STRONGEST);
   if (!strongest.length) return "spectrum: no lines, as nothing moves";
-  return `spectrum: ${units.frequencies(strongest.map(([frequency, amplitude]) => [frequency, amplitude.toPrecision(2)]))}`;
+  const rounded = strongest.map(([frequency, amplitude]) => [frequency, amplitude.toPrecision(2)]);
+  return `spectrum: ${units.frequencies(rounded)}`;
 }
 
 export class Passport {
@@ -84,7 +90,8 @@ export class Passport {
     try {
       const push = await smallestPush(pane, row);
       const speed = push && this.basins.units.velocity(Math.abs(push).toPrecision(3));
-      this.pushes.set(of, push ? `smallest push seen, at the strobe: ${push > 0 ? "+" : "-"}${speed}` : "smallest push: beyond this window");
+      this.pushes.set(of, push ? `smallest push seen, at the strobe: ${push > 0 ? "+" : "-"}${speed}`
+        : "smallest push: beyond this window");
     } catch (error) {
       this.pushes.set(of, `smallest push: ${error.message}`);
     }

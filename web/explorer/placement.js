@@ -19,7 +19,8 @@ export function imagesOf(frame, window) {
   const [left, bottom, width, height] = place;
   const step = period * width;
   const found = [];
-  for (let n = Math.ceil((-left - width) / step); left + n * step < 1; n++) found.push([left + n * step, bottom, width, height]);
+  for (let n = Math.ceil((-left - width) / step); left + n * step < 1; n++) found.push(
+    [left + n * step, bottom, width, height]);
   return found;
 }
 
@@ -29,7 +30,8 @@ export function seen(frames, window) {
     const { place, period } = placementOf(frame, window);
     const [left, bottom, width, height] = place;
     const slack = 1e-9;
-    return (period <= 1 || (left <= slack && left + width >= 1 - slack)) && bottom <= slack && bottom + height >= 1 - slack;
+    return (period <= 1 || (left <= slack && left + width >= 1 - slack)) && bottom <= slack
+      && bottom + height >= 1 - slack;
   };
   return frames.slice(Math.max(0, frames.findLastIndex(fills)));
 }

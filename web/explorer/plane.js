@@ -13,7 +13,8 @@ export class Plane {
   constructor(window, width, height, letters = 1) {
     this.window = window;
     const left = Math.round(MARGIN.left * letters);
-    this.box = [left, MARGIN.top, Math.max(8, width - left - MARGIN.right), Math.max(8, height - MARGIN.top - MARGIN.bottom)];
+    this.box = [left, MARGIN.top, Math.max(8, width - left - MARGIN.right),
+      Math.max(8, height - MARGIN.top - MARGIN.bottom)];
   }
 
   /** Shares (0 to 1 inside of the window) of a place on the canvas. */
@@ -40,15 +41,18 @@ export class Plane {
     const period = TURN / angles.width;
     const found = [];
     if (up < 0 || up > 1) return found;
-    for (let n = Math.ceil(-first / period); first + n * period <= 1; n++) found.push(this.placeOf(first + n * period, up));
+    for (let n = Math.ceil(-first / period); first + n * period <= 1; n++) found.push(
+      this.placeOf(first + n * period, up));
     return found;
   }
 }
 
 /** Those of a first look: degrees, and turns in a shake. */
-export const PLAIN = { theta: { words: "angle (degrees)", factor: degrees }, velocity: { words: "push (turns in one shake)" } };
+export const PLAIN = { theta: { words: "angle (degrees)", factor: degrees },
+  velocity: { words: "push (turns in one shake)" } };
 
-/** Factors and names of the units in which axes are marked. `pivotFrequency`: rad/s, or null where the scene does not say. */
+/** Factors and names of the units in which axes are marked. `pivotFrequency`: rad/s, or null where the scene does not
+ * say. */
 export function axesOf(units, pivotFrequency) {
   const plain = { words: "angle θ from down (rad)", inPi: true };
   const speed = { words: "velocity dθ/d(ωt)" };
@@ -118,14 +122,16 @@ export function drawPlace(surface, plane, axes, [across, up]) {
 function tag(surface, words, x, y, align, [low, high]) {
   const letters = surface.letters ?? 1;
   const wide = surface.width(words) + 8;
-  const middle = align === "center" ? Math.max(low + wide / 2 - 20, Math.min(high - wide / 2 + 12, x)) : x + 4 - wide / 2;
+  const middle = align === "center" ? Math.max(low + wide / 2 - 20, Math.min(high - wide / 2 + 12, x))
+    : x + 4 - wide / 2;
   surface.rectangle(middle - wide / 2, y - 12 * letters, wide, 16 * letters, surface.theme.ink);
   surface.text(words, middle, y, "center", { colour: surface.theme.paper });
 }
 
 /** Points of starts given as [[theta, velocity], ...]. */
 export function drawPoints(surface, plane, points, fill, radius, stroke = "#ffffff") {
-  for (const [theta, velocity] of points) for (const [x, y] of plane.images(theta, velocity)) surface.circle(x, y, radius, fill, stroke);
+  for (const [theta, velocity] of points) for (const [x, y] of plane.images(theta, velocity)) surface.circle(x, y,
+    radius, fill, stroke);
 }
 
 /** A line through starts whose angles go on beyond a turn (not wrapped); every image of it that is seen. */

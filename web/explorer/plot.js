@@ -10,15 +10,16 @@ const LETTERS = 14; // px
 const [ACROSS, UP] = [72, 36]; // px that a tick of an axis has
 const MOST_PARTS = 12; // of a drive frequency that ticks tell apart
 
-/** Ticks of whole frequencies up to `most`, of their halves, and of the parts that a motion of that period has: {at, words, rank}; words of a
- * lower rank are the more important ones. */
+/** Ticks of whole frequencies up to `most`, of their halves, and of the parts that a motion of that period has: {at,
+ * words, rank}; words of a lower rank are the more important ones. */
 export function fractionTicks(most, period) {
   const parts = period > 1 && period <= MOST_PARTS ? [2, period] : [2];
   const found = new Map();
   for (const part of parts)
     for (let n = 0; n <= most * part; n++) {
       const [top, bottom] = reduced(n, part);
-      const rank = bottom === 1 && top > 0 ? 0 : top === 1 && bottom === period ? 1 : n === 0 || top / bottom === 1 / 2 ? 2 : bottom === 2 ? 3 : 4;
+      const rank = bottom === 1 && top > 0 ? 0 : top === 1 && bottom === period ? 1 : n === 0 || top / bottom === 1 / 2
+        ? 2 : bottom === 2 ? 3 : 4;
       found.set(n / part, { at: n / part, words: bottom === 1 ? String(top) : `${top}/${bottom}`, rank });
     }
   return [...found.values()].sort((one, other) => one.at - other.at);
@@ -51,7 +52,8 @@ export class Plot {
 
   place([x, y]) {
     const [left, top, width, height] = this.box;
-    return [left + ((x - this.left) / (this.right - this.left)) * width, top + (1 - (y - this.low) / (this.high - this.low)) * height];
+    return [left + ((x - this.left) / (this.right - this.left)) * width,
+      top + (1 - (y - this.low) / (this.high - this.low)) * height];
   }
 
   line(points, colour = this.surface.theme.ink, width = 1.4) {
@@ -61,7 +63,8 @@ export class Plot {
       run = [];
     };
     for (const [i, point] of points.entries()) {
-      const wraps = i && this.right - this.left < 8 && Math.abs(point[0] - points[i - 1][0]) > Math.PI; // round the circle
+      // Round the circle
+      const wraps = i && this.right - this.left < 8 && Math.abs(point[0] - points[i - 1][0]) > Math.PI;
       if (wraps) flush();
       run.push(this.place(point));
     }
@@ -79,7 +82,8 @@ export class Plot {
     lines.forEach((words, i) => this.surface.text(words, left + width / 2, top + height / 2 + step * i, "center"));
   }
 
-  /** Both axes with their words; `across` and `up`: {ticks} of their own, {inPi} for fractions of pi, {per} for values counted in that many. */
+  /** Both axes with their words; `across` and `up`: {ticks} of their own, {inPi} for fractions of pi, {per} for values
+   * counted in that many. */
   /** @param {string} words @param {string} upWords @param {{across?: any, up?: any}} options of ticksBetween */
   axes(words, upWords, { across = {}, up = {} } = {}) {
     const [left, top, width, height] = this.box;
@@ -90,7 +94,8 @@ export class Plot {
     surface.line([[left, top], [left, bottom], [left + width, bottom]], faint, 1);
     const letters = surface.letters ?? 1;
     const along = across.ticks ?? ticksBetween(this.left, this.right, width / (ACROSS * letters), across);
-    const placed = along.map((tick) => ({ ...tick, x: this.place([tick.at, 0])[0], wide: surface.width(tick.words, LETTERS) }));
+    const placed = along
+      .map((tick) => ({ ...tick, x: this.place([tick.at, 0])[0], wide: surface.width(tick.words, LETTERS) }));
     for (const { x, rank } of placed) surface.line([[x, bottom], [x, bottom + (rank ? 3 : 5)]], faint, 1);
     for (const { x, words } of apart(placed)) surface.text(words, x, bottom + 4 + 11 * letters, "center", small);
     surface.text(words, left + width / 2, bottom + 8 + 25 * letters, "center", small);
@@ -106,5 +111,6 @@ export class Plot {
 /** Ticks between two numbers: {at, words, rank}. */
 function ticksBetween(low, high, most, { inPi = false, per = 1 }) {
   const range = new Range(Decimal.from(low / per), Decimal.from(high / per));
-  return ticksOf(range, Math.max(2, most), { inPi }).ticks.map(({ share, words }) => ({ at: low + share * (high - low), words: signed(words), rank: 0 }));
+  return ticksOf(range, Math.max(2, most), { inPi }).ticks
+    .map(({ share, words }) => ({ at: low + share * (high - low), words: signed(words), rank: 0 }));
 }

@@ -8,7 +8,8 @@ const HEAD = 33; // bytes of the signature and of the first chunk, behind which 
 /** A picture with texts, {keyword: text}; keywords are ASCII. */
 export async function withTexts(blob, texts) {
   const bytes = new Uint8Array(await blob.arrayBuffer());
-  return new Blob([bytes.subarray(0, HEAD), ...Object.entries(texts).map((entry) => chunkOf(...entry)), bytes.subarray(HEAD)], { type: "image/png" });
+  return new Blob([bytes.subarray(0, HEAD), ...Object.entries(texts).map((entry) => chunkOf(...entry)),
+    bytes.subarray(HEAD)], { type: "image/png" });
 }
 
 /** A chunk iTXt: keyword, no compression, no language, text. */
@@ -30,7 +31,8 @@ export function textsIn(bytes) {
   for (let at = SIGNATURE.length; at + 12 <= bytes.length; ) {
     const length = view.getUint32(at);
     const kind = String.fromCharCode(...bytes.subarray(at + 4, at + 8));
-    const parts = kind === "iTXt" && /^([^\0]*)\0\0\0[^\0]*\0[^\0]*\0([^]*)$/.exec(new TextDecoder().decode(bytes.subarray(at + 8, at + 8 + length)));
+    const parts = kind === "iTXt" && /^([^\0]*)\0\0\0[^\0]*\0[^\0]*\0([^]*)$/.exec(
+      new TextDecoder().decode(bytes.subarray(at + 8, at + 8 + length)));
     if (parts) found[parts[1]] = parts[2];
     at += length + 12;
   }

@@ -17,7 +17,8 @@ export function wordsAt(pane, { passport, units, state }, across, up) {
   if (!found) return "not labelled yet";
   const { frame, cell } = found;
   const name = frame.labels[cell] === 255 ? unlabelled(frame) : frame.catalogue.attractors[frame.labels[cell]].name;
-  const known = row && (pane.shows(frame) ? row : { ...row, share: null, settling: null }); // not those of another window
+  // Not those of another window
+  const known = row && (pane.shows(frame) ? row : { ...row, share: null, settling: null });
   if (state.level === "look") return `ends ${row ? row.kind : name}`;
   const measures = row ? `: ${measureWords(known, passport.pushOf(pane, row), units)}` : "";
   return name + (frame.cells[4 * cell + 2] === 255 ? " (undecided)" : "") + measures;

@@ -55,7 +55,8 @@ export function pictureSize(basins) {
   return [wide + LEGEND, basins.panes[0].over.clientHeight + HEAD];
 }
 
-/** All panes beside each other, title above and legend beside, on white. `pictures`: of the basins, of panes that have another one. */
+/** All panes beside each other, title above and legend beside, on white. `pictures`: of the basins, of panes that have
+ * another one. */
 export function drawPicture(surface, state, basins, pictures = new Map()) {
   const [width, height] = pictureSize(basins);
   surface.rectangle(0, 0, width, height, LIGHT.paper);
@@ -85,14 +86,16 @@ function drawPane(surface, pane, left, caption, picture) {
 
 export function pictureCanvas(state, basins, scale = 2, pictures = new Map()) {
   const [width, height] = pictureSize(basins);
-  const canvas = Object.assign(document.createElement("canvas"), { width: Math.round(scale * width), height: Math.round(scale * height) });
+  const canvas = Object.assign(document.createElement("canvas"),
+    { width: Math.round(scale * width), height: Math.round(scale * height) });
   const context = canvas.getContext("2d");
   context.scale(scale, scale);
   drawPicture(new CanvasSurface(context, LIGHT), state, basins, pictures);
   return canvas;
 }
 
-/** A picture `width` px wide, whose basins are computed for that size; as large as the screen shows it without `width`. The view is in it. */
+/** A picture `width` px wide, whose basins are computed for that size; as large as the screen shows it without `width`.
+ * The view is in it. */
 export async function savePng(state, basins, width) {
   const canvas = await canvasOf(state, basins, width);
   const { title, scene, whole, pivotFrequency } = state;
@@ -107,18 +110,18 @@ async function canvasOf(state, basins, width) {
   const pictures = new Map();
   const address = addressOf(state);
   for (const pane of basins.panes) pictures.set(pane, await computed(state, pane, scale));
-  if (addressOf(state) !== address) throw new Error("The view has changed while its picture was computed. Save it again.");
+  if (addressOf(state) !== address) throw new Error(
+    "The view has changed while its picture was computed. Save it again.");
   return pictureCanvas(state, basins, scale, pictures);
 }
 
-/**
- * The basins of a pane, a cell a pixel of a picture that is `scale` times as large as that on the page. They have a program of their own, so
- * that the page goes on with what it computes.
- */
+/** The basins of a pane, a cell a pixel of a picture that is `scale` times as large as that on the page. They have a
+ * program of their own, so that the page goes on with what it computes. */
 async function computed(state, pane, scale) {
   const engine = new Engine(`${pane.name}-picture`);
   const [, , wide, high] = pane.plane.box;
-  const canvas = Object.assign(document.createElement("canvas"), { width: Math.round(wide * scale), height: Math.round(high * scale) });
+  const canvas = Object.assign(document.createElement("canvas"),
+    { width: Math.round(wide * scale), height: Math.round(high * scale) });
   const { window, quality, shade } = state;
   try {
     const frame = await pane.glance(window, canvas, { quality, shade, most: MOST, engine });

@@ -19,7 +19,8 @@ export class Skeleton {
   /** Shows the skeleton of a pane's pendulum, or takes it away. */
   async toggle(pane) {
     if (pane.plain.skeleton) return this.put(pane, null);
-    if (this.state.home.theta.width / this.state.window.theta.width > DEEPEST) return this.say("The lines of saddles are too coarse for so deep a window.");
+    if (this.state.home.theta.width / this.state.window.theta.width > DEEPEST) return this.say(
+      "The lines of saddles are too coarse for so deep a window.");
     const { pendulum } = pane;
     const { low, high } = this.state.whole.velocity;
     const fastest = Math.max(Math.abs(low.toNumber()), Math.abs(high.toNumber()));
@@ -30,7 +31,8 @@ export class Skeleton {
         if (header.answer === "error") throw new Error(header.message);
         if (header.answer === "skeleton") this.put(pane, Object.values(header.overlays));
       }
-      this.say("The boundary is made of the stable manifolds (lines) of saddles (white points): starts on them go to no attractor.");
+      this.say("The boundary is made of the stable manifolds (lines) of saddles (white points): " +
+        "starts on them go to no attractor.");
     } catch (error) {
       this.say(`No saddles: ${error.message}`);
     }

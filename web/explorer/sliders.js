@@ -44,20 +44,22 @@ const SYMBOLS = { // of values without a unit of their own
   pivot_frequency: "rad/s",
 };
 
-/** What is typed, as a value of a scene: a number alone has the unit that the scene gives; null where it is no number. */
+/** What is typed, as a value of a scene: a number alone has the unit that the scene gives; null where it is no
+ * number. */
 export function typed(text, home) {
   const found = numberOf(text.trim());
   return found && withUnit(found.number, found.unit || numberOf(home).unit);
 }
 
-/** Fills `holder`; `change(name, text)` is called for each new value, `sweep(name)` for a press of the button that moves a slider there and back;
- * `engine()`: one that has nothing to do, or null. */
+/** Fills `holder`; `change(name, text)` is called for each new value, `sweep(name)` for a press of the button that
+ * moves a slider there and back; `engine()`: one that has nothing to do, or null. */
 export class Sliders {
   constructor(holder, scene, { change, sweep, engine }) {
     this.scene = scene;
     this.rows = new Map();
     this.engine = engine;
-    new ResizeObserver(() => this.rows.forEach((row) => row.stretches && drawTrack(row, row.stretches))).observe(holder);
+    new ResizeObserver(() => this.rows.forEach((row) => row.stretches && drawTrack(row, row.stretches))).observe(
+      holder);
     this.drive = newDrive(scene);
     holder.replaceChildren();
     for (const name of Object.keys(scene).filter((key) => numberOf(scene[key]))) {
@@ -191,7 +193,8 @@ function newRow(name, home) {
   const [element, label, marks, message] = ["div", "label", "div", "p"].map((kind) => document.createElement(kind));
   const [range, number] = [document.createElement("input"), document.createElement("input")];
   element.className = "slider";
-  label.append(spanOf("key", keyWords(name)), spanOf("plain", /amplitude|^m$/.test(name) ? "how far it is shaken" : keyWords(name)));
+  label.append(spanOf("key", keyWords(name)), spanOf("plain", /amplitude|^m$/.test(name) ? "how far it is shaken"
+    : keyWords(name)));
   label.title = EXPLAINED[name] ?? "";
   label.setAttribute("for", `value-${name}`);
   number.id = `value-${name}`;
@@ -203,7 +206,8 @@ function newRow(name, home) {
   marks.className = "marks";
   Object.assign(message, { className: "message", id: `message-${name}` }).setAttribute("role", "alert");
   number.setAttribute("aria-describedby", message.id);
-  const play = Object.assign(document.createElement("button"), { className: "sweep", textContent: "▶", title: `move ${keyWords(name)} there and back` });
+  const play = Object.assign(document.createElement("button"),
+    { className: "sweep", textContent: "▶", title: `move ${keyWords(name)} there and back` });
   play.setAttribute("aria-label", play.title);
   play.setAttribute("aria-pressed", "false");
   element.append(label, value, range, number, play, marks, message);

@@ -18,7 +18,8 @@ export class Stage {
     this.canvas = canvas;
   }
 
-  /** One picture of a motion (null: none yet), in a view of VIEWS; `slower`: how many times slower than life it is, or null. */
+  /** One picture of a motion (null: none yet), in a view of VIEWS; `slower`: how many times slower than life it is, or
+   * null. */
   draw(motion, view, theme, units, slower) {
     const { canvas } = this;
     canvas.classList.toggle("awaits", !motion); // the last picture of another motion stays, pale
@@ -69,7 +70,8 @@ export class Stage {
 
   plane(surface, motion, width, height) {
     const samples = motion.samples();
-    const plot = new Plot(surface, width, height, spread(samples.map((i) => motion.wrapped(i))), spread(motion.velocity));
+    const plot = new Plot(surface, width, height, spread(samples.map((i) => motion.wrapped(i))),
+      spread(motion.velocity));
     plot.axes("angle θ", "velocity", { across: { inPi: true } });
     return plot;
   }
@@ -79,7 +81,8 @@ export class Stage {
     const lines = motion.spectrum(MOST_LINES);
     const most = Math.max(...lines.map(([, amplitude]) => amplitude), 1);
     const plot = new Plot(surface, width, height, [0, MOST_LINES], [-DECADES, Math.log10(most) + 0.3]);
-    plot.axes("drive frequencies", "log₁₀ velocity", { across: { ticks: fractionTicks(MOST_LINES, motion.ending.period) } });
+    plot.axes("drive frequencies", "log₁₀ velocity",
+      { across: { ticks: fractionTicks(MOST_LINES, motion.ending.period) } });
     for (const [frequency, amplitude] of lines) {
       const level = Math.log10(amplitude);
       if (level > -DECADES) plot.line([[frequency, -DECADES], [frequency, level]], surface.theme.mark, 2);

@@ -74,7 +74,8 @@ export class State {
     this.change({ window });
   }
 
-  /** Keeps the window and the pendulums for back(). Changes of one `kind`, as a hand makes them without a pause, are one step. */
+  /** Keeps the window and the pendulums for back(). Changes of one `kind`, as a hand makes them without a pause, are
+   * one step. */
   keep(kind = null, window = this.window) {
     const now = performance.now();
     const goesOn = kind !== null && kind === this.kept?.kind && now - this.kept.at < PAUSE;
@@ -117,10 +118,12 @@ function axisFrom(text) {
 export function addressOf(state) {
   const { theta, velocity } = state.window.toRequest();
   const parts = new URLSearchParams({ theta: axisText(theta), velocity: axisText(velocity) });
-  for (const [name, value] of Object.entries(state.pendulum)) if (value !== state.scene[name]) parts.set(`pendulum.${name}`, value);
+  for (const [name, value] of Object.entries(state.pendulum)) if (value !== state.scene[name]) parts.set(
+    `pendulum.${name}`, value);
   if (state.start) parts.set("start", `${state.start.theta}~${state.start.velocity}~${state.start.pane}`);
   if (state.other) for (const [name, value] of Object.entries(state.other)) parts.set(`other.${name}`, value);
-  for (const [name, value] of Object.entries(DEFAULTS)) if (state[name] !== value || SAID.includes(name)) parts.set(name, state[name]);
+  for (const [name, value] of Object.entries(DEFAULTS)) if (state[name] !== value || SAID.includes(name)) parts.set(
+    name, state[name]);
   return `#${parts}`;
 }
 
@@ -132,7 +135,8 @@ export function readAddress(hash, start) {
     const [group, key] = name.split(".");
     if (name in DEFAULTS) found[name] = value;
     else if (group === "pendulum" && key in start.pendulum) found.pendulum[key] = value;
-    else if (group === "other" && key in start.pendulum) found.other = { ...(found.other ?? start.pendulum), [key]: value };
+    else if (group === "other" && key in start.pendulum) found.other = { ...(found.other ?? start.pendulum),
+      [key]: value };
   }
   if (parts.has("start")) {
     const [theta, velocity, pane] = parts.get("start").split("~");
@@ -148,7 +152,8 @@ export function readAddress(hash, start) {
 
 const REMEMBERED = ["middle", "theme", "drawn", "level", "map"];
 
-/** Choices that hold for every scene. A cookie keeps them: it is the same for all ports of this machine, where other storage is not. */
+/** Choices that hold for every scene. A cookie keeps them: it is the same for all ports of this machine, where other
+ * storage is not. */
 export function remember(state, keys) {
   for (const name of REMEMBERED.filter((key) => keys.has(key)))
     document.cookie = `kapitza_${name}=${state[name]}; max-age=31536000; path=/; samesite=strict`;

@@ -1,4 +1,5 @@
-// Stories for a lecture: states of the page one after the other, each with a sentence. Where they come from: docs/reference/explorer.md.
+// Stories for a lecture: states of the page one after the other, each with a sentence. Where they come from:
+// docs/reference/explorer.md.
 
 import { nearestBoundary } from "./boundary.js";
 import { NEUTRAL } from "./drive.js";
@@ -11,8 +12,10 @@ import { Window } from "./window.js";
 const GLIDE = 1.5; // seconds in which numbers of the pendulum go to their new values
 const PACE = 10_000; // ms of a step that goes on by itself
 const PRESENTER = { ArrowRight: 1, PageDown: 1, Enter: 1, " ": 1, ArrowLeft: -1, PageUp: -1, Backspace: -1 };
-const KEPT = ["level", "title", "scene", "pendulum", "other", "pane", "pivotFrequency", "start", "window", "home", "whole", "view", "map", "speed", "lit", "pinned", "past", "undone"];
-const texts = (pendulum) => Object.fromEntries(Object.entries(pendulum).map(([name, value]) => [name, typeof value === "number" ? String(value) : value]));
+const KEPT = ["level", "title", "scene", "pendulum", "other", "pane", "pivotFrequency", "start", "window", "home",
+  "whole", "view", "map", "speed", "lit", "pinned", "past", "undone"];
+const texts = (pendulum) => Object.fromEntries(Object.entries(pendulum)
+  .map(([name, value]) => [name, typeof value === "number" ? String(value) : value]));
 
 export class Stories {
   /** @param {import("./state.js").State} state
@@ -23,7 +26,8 @@ export class Stories {
     this.story = this.known = null;
     this.step = 0;
     element("tell").onclick = () => (this.story ? this.end() : this.offer());
-    element("show-me").onclick = async () => this.begin((await this.all())[0], !matchMedia("(prefers-reduced-motion: reduce)").matches);
+    element("show-me").onclick = async () => this.begin((await this.all())[0],
+      !matchMedia("(prefers-reduced-motion: reduce)").matches);
     element("story-next").onclick = () => this.take(1);
     element("story-back").onclick = () => this.take(-1);
     element("story-end").onclick = () => this.end();
@@ -131,15 +135,18 @@ export class Stories {
 
   /** The state after some steps: each changes what it names, and what it does not name stays as it was. */
   show(steps) {
-    const all = Object.assign({ view: VIEWS[0], fill: "", map: "off", speed: 1, start: null, window: this.state.home.toRequest() }, ...steps);
+    const all = Object.assign({ view: VIEWS[0], fill: "", map: "off", speed: 1, start: null,
+      window: this.state.home.toRequest() }, ...steps);
     const { window, boundary } = steps.findLast((step) => step.window || step.boundary) ?? {};
     const pendulum = Object.assign({ ...this.state.scene }, ...steps.map((step) => texts(step.pendulum ?? {})));
     const start = all.start && { theta: String(all.start.theta), velocity: String(all.start.velocity), pane: "a" };
     document.body.dataset.filled = all.fill;
     const to = boundary ? this.state.window : window ? Window.from(window) : this.state.home;
-    this.state.change({ view: all.view, map: all.map, speed: all.speed, start, window: to, jump: false, playing: true, lit: null, pinned: null });
+    this.state.change({ view: all.view, map: all.map, speed: all.speed, start, window: to, jump: false, playing: true,
+      lit: null, pinned: null });
     this.busy = (this.busy ?? 0) + 1; // shows that go on
-    this.glide(pendulum, steps.at(-1).glide ?? GLIDE, () => boundary && this.zoomTo(boundary)).finally(() => this.busy--);
+    this.glide(pendulum, steps.at(-1).glide ?? GLIDE, () => boundary && this.zoomTo(boundary)).finally(
+      () => this.busy--);
   }
 
   /** Numbers go to their new values in so many seconds; then `after`. */

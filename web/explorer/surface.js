@@ -5,8 +5,10 @@ const FONT = '"DejaVu Sans", "Helvetica Neue", Arial, sans-serif';
 const LETTERS = 14; // px
 
 /** Colours of lines and letters. Saved pictures are always on white. */
-export const LIGHT = { paper: "#ffffff", ink: "#1c2127", faint: "#5a646e", trace: "#a9c4df", mark: "#b3261e", shaker: "#dfe4e9", cross: "#1c212770" };
-export const DARK = { paper: "#161b21", ink: "#e4e8ec", faint: "#98a2ad", trace: "#3f5f80", mark: "#ff8a7a", shaker: "#2a323b", cross: "#ffffff70" };
+export const LIGHT = { paper: "#ffffff", ink: "#1c2127", faint: "#5a646e", trace: "#a9c4df", mark: "#b3261e",
+  shaker: "#dfe4e9", cross: "#1c212770" };
+export const DARK = { paper: "#161b21", ink: "#e4e8ec", faint: "#98a2ad", trace: "#3f5f80", mark: "#ff8a7a",
+  shaker: "#2a323b", cross: "#ffffff70" };
 
 /** How much larger letters on the page's canvases are in a lecture. */
 export const lettersOf = (page) => (page.dataset.story === undefined && page.dataset.letters !== "large" ? 1 : 1.35);
@@ -97,7 +99,8 @@ export class SvgSurface {
 
   line(points, colour, width, dashes = []) {
     const path = points.map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`).join(" ");
-    this.parts.push(`<polyline fill="none" stroke="${colour}" stroke-width="${width}" stroke-dasharray="${dashes.join(" ")}" points="${path}"/>`);
+    this.parts.push(`<polyline fill="none" stroke="${colour}" stroke-width="${width}" ` +
+      `stroke-dasharray="${dashes.join(" ")}" points="${path}"/>`);
   }
 
   circle(x, y, radius, fill, stroke) {
@@ -121,7 +124,8 @@ export class SvgSurface {
   clipped([x, y, width, height], draw) {
     const id = `clip${this.clips++}`;
     this.parts.push(
-      `<clipPath id="${id}"><rect x="${x}" y="${y}" width="${width}" height="${height}"/></clipPath><g clip-path="url(#${id})">`,
+      `<clipPath id="${id}"><rect x="${x}" y="${y}" width="${width}" height="${height}"/></clipPath>` +
+        `<g clip-path="url(#${id})">`,
     );
     draw();
     this.parts.push("</g>");

@@ -8,11 +8,9 @@ const MOST_DIGITS = 4; // after the point, which the margin of an axis has room 
 const FINER = 2; // digits that a place has beyond those of ticks
 const SHOWN_DIGITS = 30; // of such an origin
 
-/**
- * {ticks: [{share, words}], origin, wordsAt}: where ticks lie (0 at the lower edge, 1 at the upper) and what they say; where digits run
- * out they count from `origin` ("1.2345 + n × 1e-9"), else it is null. `wordsAt(share)`: what a tick there would say, with more digits.
- * `factor`: the unit's number per radian; `inPi`: fractions of pi are wanted.
- */
+/** {ticks: [{share, words}], origin, wordsAt}: where ticks lie (0 at the lower edge, 1 at the upper) and what they say;
+ * where digits run out they count from `origin` ("1.2345 + n × 1e-9"), else it is null. `wordsAt(share)`: what a tick
+ * there would say, with more digits. `factor`: the unit's number per radian; `inPi`: fractions of pi are wanted. */
 export function ticksOf(range, most, { factor = null, inPi = false } = {}) {
   if (inPi && range.width >= WIDE) return piTicks(range, most);
   const low = factor ? range.low.times(factor(digitsFor(range.width))) : range.low;
@@ -20,7 +18,8 @@ export function ticksOf(range, most, { factor = null, inPi = false } = {}) {
   const width = high.minus(low).toNumber();
   const step = roundStep(width / most);
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  return digits > MOST_DIGITS ? countedTicks(low, high, width, step, digits) : plainTicks(low.toNumber(), width, step, digits);
+  return digits > MOST_DIGITS ? countedTicks(low, high, width, step, digits) : plainTicks(low.toNumber(), width, step,
+    digits);
 }
 
 function roundStep(rough) {
@@ -57,7 +56,8 @@ function piTicks(range, most) {
   const ticks = [];
   for (let n = Math.ceil(low / step - 1e-6); n * step <= low + range.width * (1 + 1e-6); n++)
     ticks.push({ share: (n * step - low) / range.width, words: piText((n * step) / Math.PI) });
-  return { ticks, origin: null, wordsAt: (share) => `${signed(((low + share * range.width) / Math.PI).toFixed(FINER + 1))}π` };
+  return { ticks, origin: null,
+    wordsAt: (share) => `${signed(((low + share * range.width) / Math.PI).toFixed(FINER + 1))}π` };
 }
 
 /** A multiple of pi as a fraction: 3π/2. */

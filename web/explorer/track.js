@@ -18,8 +18,8 @@ const axis = (parameter, low, high, count) => {
   return { parameter, min, max, count };
 };
 
-/** Stretches of the slider of a key, {from, to, words, number}, places from 0 to 1; null where another request has ended this one. Throws the
- * program's words where it draws no chart of the pendulum. */
+/** Stretches of the slider of a key, {from, to, words, number}, places from 0 to 1; null where another request has
+ * ended this one. Throws the program's words where it draws no chart of the pendulum. */
 export async function stretchesOf(engine, name, pendulum, home) {
   const other = Object.keys(pendulum).find((key) => key !== name && numberOf(pendulum[key])?.number > 0);
   const [low, high] = [-1, 1].map((place) => numberOf(valueAt(place, home)));
@@ -33,12 +33,14 @@ export async function stretchesOf(engine, name, pendulum, home) {
   for (let i = 0; i < CELLS; i++) {
     const words = WORDS[kindOf(bytes[i], bytes[2 * CELLS + i])] ?? "falls";
     const number = low.number + (i * (high.number - low.number)) / CELLS;
-    if (found.at(-1)?.words !== words) found.push({ words, number, from: (1 + placeOf(withUnit(number, low.unit), home)) / 2 });
+    if (found.at(-1)?.words !== words) found.push(
+      { words, number, from: (1 + placeOf(withUnit(number, low.unit), home)) / 2 });
   }
   return found.map((one, i) => ({ ...one, to: found[i + 1]?.from ?? 1 }));
 }
 
-/** Colours a slider by its stretches, and writes their words under it: each where its stretch begins, or behind the word before. */
+/** Colours a slider by its stretches, and writes their words under it: each where its stretch begins, or behind the
+ * word before. */
 export function drawTrack({ range, marks }, stretches) {
   const parts = stretches.map(({ words, from, to }) => `var(--${idOf(COLOURS[words])}) ${100 * from}% ${100 * to}%`);
   range.style.setProperty("--track", parts.length ? `linear-gradient(to right, ${parts.join(", ")})` : "none");

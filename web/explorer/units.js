@@ -42,7 +42,8 @@ export class Units {
 
   /** Frequencies (of the drive's) with the words `about` behind each, in words. */
   frequencies(pairs) {
-    const words = pairs.map(([frequency, about]) => `${Number((frequency * (this.omega ? this.omega / TURN : 1)).toPrecision(3))} (${about})`);
+    const words = pairs.map(([frequency, about]) =>
+      `${Number((frequency * (this.omega ? this.omega / TURN : 1)).toPrecision(3))} (${about})`);
     return `${words.join(", ")} ${this.omega ? "Hz" : "drive frequencies"}`;
   }
 }

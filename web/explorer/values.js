@@ -1,7 +1,8 @@
 // Values of the pendulum as a scene has them: numbers, some with a unit.
 
 const PARTS = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$/; // a number and its unit, if it has one
-const REACH = 4; // a slider goes from the scene's value / 4 to its 4-fold, in equal ratios; from 0 to -1 and 1, finer near 0
+// A slider goes from the scene's value / 4 to its 4-fold, in equal ratios; from 0 to -1 and 1, finer near 0
+const REACH = 4;
 
 /** Number and unit of a value as a scene has it ("0.3", "12 Hz"); null where it is none (words, lists). */
 export function numberOf(value) {

@@ -7,7 +7,8 @@ const PALE = [236, 240, 244, 205]; // its colour and how dense it is
 /** The veil of two frames, {frame: whose cells it covers, canvas}; kept by the first of them. */
 export function veilOf(one, other) {
   if (one.veil?.other === other) return one.veil;
-  const [names, others] = [one, other].map((frame) => new Map(sharesOf(frame).map(({ id, key }) => [id < 0 ? 255 : id, key])));
+  const [names, others] = [one, other]
+    .map((frame) => new Map(sharesOf(frame).map(({ id, key }) => [id < 0 ? 255 : id, key])));
   const { rows, columns } = one;
   const canvas = Object.assign(document.createElement("canvas"), { width: columns, height: rows });
   const picture = canvas.getContext("2d").createImageData(columns, rows);

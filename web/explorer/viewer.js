@@ -8,7 +8,8 @@ import { Units } from "./units.js";
 
 const SECOND = 1.2; // drive periods that a second shows
 
-/** `data`: {rows: [{name, colour, share, words, motion}], pivotFrequency}; motion: {header, numbers, ending} or null. */
+/** `data`: {rows: [{name, colour, share, words, motion}], pivotFrequency}; motion: {header, numbers, ending} or
+ * null. */
 export function view({ rows, pivotFrequency }) {
   const theme = matchMedia("(prefers-color-scheme: dark)").matches ? DARK : LIGHT;
   const stage = new Stage(element("pendulum"));

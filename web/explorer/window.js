@@ -136,7 +136,8 @@ export class Window {
     const period = TURN / this.theta.width;
     const width = other.theta.width / this.theta.width;
     left -= period * Math.round((left + width / 2 - 0.5) / period);
-    return { left, bottom: this.velocity.shareOf(other.velocity.low), width, height: other.velocity.width / this.velocity.width };
+    return { left, bottom: this.velocity.shareOf(other.velocity.low), width,
+      height: other.velocity.width / this.velocity.width };
   }
 
   toRequest() {

@@ -49,6 +49,7 @@ export function zipOf(files) {
     offset += 30 + letters.length + bytes.length;
   }
   const size = directory.reduce((sum, part) => sum + part.length, 0);
-  const end = packed([4, 0x06054b50], [2, 0], [2, 0], [2, files.length], [2, files.length], [4, size], [4, offset], [2, 0]);
+  const end = packed([4, 0x06054b50], [2, 0], [2, 0], [2, files.length], [2, files.length], [4, size], [4, offset],
+    [2, 0]);
   return new Blob([...parts, ...directory, end], { type: "application/zip" });
 }

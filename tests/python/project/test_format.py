@@ -64,7 +64,7 @@ def test_house_words_are_read_from_the_style_page():
 
 CODE = {".c", ".h", ".f90", ".inc", ".py"}
 LEFT = ("src/app/live/", "python/kapitza/engine.py", "python/kapitza/session.py", "python/kapitza/client.py",
-        "python/kapitza/explorer/", "web/")
+        "python/kapitza/explorer/")
 
 
 def test_sources_can_be_read():
