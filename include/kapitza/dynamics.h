@@ -36,30 +36,25 @@ double kz_dynamics_max_velocity(kz_dynamics *dynamics, const kz_window *window);
 /* Returns the largest velocity (rad per drive radian) that a pendulum with these numerics reaches from the window. */
 double kz_max_velocity(const kz_pendulum *pendulum, const kz_numerics *numerics, const kz_window *window);
 
-/* Makes a coarse empty grid for trapping regions, up to `max_velocity` (rad per drive radian): enough for a search. */
-void kz_dynamics_coarse_regions(kz_dynamics *dynamics, double max_velocity);
-/* Replaces it by a grid of `cells` x `cells` (one more if odd) around the circle and along the velocity. Integrates its
- * nodes through 8 periods and grows the regions around the known attractors. */
-void kz_dynamics_fine_regions(kz_dynamics *dynamics, int64_t cells, double max_velocity);
+/* Makes the grid for trapping regions, up to the velocity `max_velocity` (rad per drive radian), of `cells` x `cells`
+ * (one more if odd) around the circle and along the velocity: integrates its nodes through 8 periods and grows the
+ * regions around the known attractors. cells 0: a coarse empty grid, which is enough for a search. */
+void kz_dynamics_regions(kz_dynamics *dynamics, int64_t cells, double max_velocity);
 /* Adds the ellipses and covers of new attractors to the regions; on a fine grid the regions then grow. */
 void kz_dynamics_update(kz_dynamics *dynamics);
 
-/* Looks for an unknown cycle near n <= 64 states that return to themselves within `closeness` rad, until it finds one
- * or has tried all states. found [kz_dynamics_cycle_size], in and out, 0 before the first call: found[0] = number of
- * states tried so far; from found[1] on the cycle and its mirror image, for kz_dynamics_adopt, or nothing. The
- * catalogue does not change. */
-void kz_dynamics_find_cycle(kz_dynamics *dynamics, int64_t n, const double *state, double closeness, double *found);
-int64_t kz_dynamics_cycle_size(const kz_dynamics *dynamics);
-/* Follows a bundle of orbits near one state. If neighbours separate in the first 2000 periods, it goes on for 60,000.
- * found [kz_dynamics_chaos_size]: a chaotic attractor, for kz_dynamics_adopt, if the orbits separate and no region
- * traps them; else nothing. */
-void kz_dynamics_find_chaos(kz_dynamics *dynamics, const double *state, double *found);
-int64_t kz_dynamics_chaos_size(void);
-/* Looks for a running state among n <= 64 states, whose orbits it follows through 8000 periods at most, if damping has
- * had the time to bring them to an attractor in `age` periods. found [kz_dynamics_chaos_size]: the motion, for
- * kz_dynamics_adopt, or nothing. */
-void kz_dynamics_find_running(kz_dynamics *dynamics, int64_t n, const double *state, int64_t age, double *found);
-/* Adds the attractors in `found`, of one of the calls above, to the catalogue. */
+/* Searches from n <= 64 states, which leave the catalogue as it is. KZ_FIND_CYCLE: an unknown cycle near a state that
+ * returns to itself within `number` rad, until one is found or all states have been tried. KZ_FIND_RUNNING: a running
+ * state among them, whose orbits are followed through 8000 periods at most, if damping has had the time to bring them
+ * to an attractor in `number` periods. KZ_FIND_CHAOS: a bundle of orbits near the first state; if neighbours separate
+ * in the first 2000 periods, it goes on for 60,000: a chaotic attractor if the orbits separate and no region traps
+ * them. found [kz_dynamics_find_size], in and out, 0 before the first call: found[0] = number of states tried so far
+ * (of cycles); behind it the attractor and its mirror image, for kz_dynamics_adopt, or nothing. */
+typedef enum { KZ_FIND_CYCLE, KZ_FIND_RUNNING, KZ_FIND_CHAOS } kz_find;
+void kz_dynamics_find(kz_dynamics *dynamics, kz_find what, int64_t n, const double *state, double number,
+                      double *found);
+int64_t kz_dynamics_find_size(const kz_dynamics *dynamics, kz_find what);
+/* Adds the attractors in `found` to the catalogue. */
 void kz_dynamics_adopt(kz_dynamics *dynamics, const double *found);
 
 /* The catalogue as doubles, flat [n], for messages between ranks; n = kz_dynamics_packed_size. */
@@ -84,10 +79,11 @@ double kz_dynamics_trapped_share(const kz_dynamics *dynamics);
 typedef struct {
   double theta, velocity; /* first strobe point of a cycle, else means: rad in [-pi, pi], rad per drive radian */
   int32_t period, winding, centre, symmetric, mirror; /* centre: 0 down, 1 inverted, 2 rotating, 3 none of these */
-  double mean, mean_velocity;                         /* over time: rad in [-pi, pi], rad per drive radian */
-  double amplitude;                                   /* rad from the centre, over continuous time; 0 for rotations */
-  double multiplier_re[2], multiplier_im[2];          /* over the period: larger modulus first, + imaginary first */
-  double lyapunov, lyapunov_error;                    /* largest exponent per drive period, and its standard error */
+  int32_t averaged;           /* 1: a running state known by orbit averages alone, without a band that traps motions */
+  double mean, mean_velocity; /* over time: rad in [-pi, pi], rad per drive radian */
+  double amplitude;           /* rad from the centre, over continuous time; 0 for rotations */
+  double multiplier_re[2], multiplier_im[2]; /* over the period: larger modulus first, + imaginary first */
+  double lyapunov, lyapunov_error;           /* largest exponent per drive period, and its standard error */
 } kz_attractor;
 static inline bool kz_is_running(const kz_attractor *attractor) {
   return attractor->period == 0 && attractor->winding != 0;
@@ -96,8 +92,6 @@ static inline bool kz_is_running(const kz_attractor *attractor) {
 int64_t kz_dynamics_count(const kz_dynamics *dynamics);
 /* Attractor `number`, from 1 to the count. */
 void kz_dynamics_attractor(const kz_dynamics *dynamics, int64_t classes_number, kz_attractor *attractor);
-/* Returns 1 for a running state known by orbit averages alone (no band was found that traps motions), else 0. */
-int32_t kz_dynamics_is_averaged(const kz_dynamics *dynamics, int64_t classes_number);
 /* Strobe points theta [period] in [-pi, pi), velocity [period], from the lowest velocity on; none if chaotic. */
 void kz_dynamics_strobe(const kz_dynamics *dynamics, int64_t number_classes, double *theta, double *velocity);
 /* number [count] = the numbers of the attractors in the order of the file. */

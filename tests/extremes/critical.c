@@ -65,7 +65,7 @@ static kz_dynamics *critical_searched(const kz_pendulum *pendulum, const kz_nume
   int64_t periods[STATES];
   kz_dynamics *d = kz_dynamics_create(pendulum, numerics, 12);
   assert_non_null(d);
-  kz_dynamics_coarse_regions(d, 3);
+  kz_dynamics_regions(d, 0, 3);
   for (int i = 0; i < STATES; i++) {
     const double share = pow(smallest, (double)i / STATES);
     state[2 * i] = (centre[0] + share * largest[0]) / PI;
@@ -142,7 +142,7 @@ TEST(attractors_close_together_are_told_apart) {
       state[2 * i] = 0;
       state[2 * i + 1] = (i - STATES / 2) * apart / 20;
     }
-    kz_dynamics_coarse_regions(d, 3);
+    kz_dynamics_regions(d, 0, 3);
     find_cycles(d, STATES, state, 0.02);
     kz_dynamics_update(d);
     kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, STATES, 2000, state, label, periods, NULL);

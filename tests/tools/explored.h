@@ -30,9 +30,9 @@ static inline kz_dynamics *explored_pendulum(const kz_pendulum *pendulum, const 
   assert_non_null(d);
   kz_dynamics_starts(&WINDOW, seed, n, state);
   if (cells > 0)
-    kz_dynamics_fine_regions(d, cells, max_velocity);
+    kz_dynamics_regions(d, cells, max_velocity);
   else
-    kz_dynamics_coarse_regions(d, max_velocity);
+    kz_dynamics_regions(d, 0, max_velocity);
   for (int round = 0; n > 0 && round < 12; round++) {
     kz_dynamics_update(d);
     kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, n, 128, state, label, periods, NULL);
@@ -74,7 +74,7 @@ static inline void with_table(kz_dynamics *d, int64_t nodes, double max_velocity
   double *rows = malloc((size_t)(nodes * size) * sizeof *rows);
   for (int64_t row = 0; row < nodes; row++) kz_dynamics_table_row(d, row, rows + row * size);
   kz_dynamics_table_set(d, rows);
-  kz_dynamics_fine_regions(d, nodes, max_velocity);
+  kz_dynamics_regions(d, nodes, max_velocity);
   free(rows);
 }
 

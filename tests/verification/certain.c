@@ -207,7 +207,7 @@ TEST(test_decisions_have_no_history) {
   for (int i = 0; i < N; i++) start[i] = (kz_start){.theta = {M_PI * x[2 * i]}, .velocity = {x[2 * i + 1]}};
   for (int again = 0; again < 2; again++) {
     kz_dynamics *d = explored_pendulum(&pendulums[4], fine_numerics(), 1, 0, 3);
-    kz_dynamics_fine_regions(d, 200, 3);
+    kz_dynamics_regions(d, 200, 3);
     if (again)
       kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_PAIRS_16, .before = KZ_LEVEL_FINE}, N, start,
                         MAX_PERIODS, first);

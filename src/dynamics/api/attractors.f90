@@ -14,29 +14,29 @@ module kz_api_attractors
   private
   public :: row_of
 
+  !> kz_find of dynamics.h.
+  integer(c_int32_t), parameter :: OF_CYCLES = 0, OF_RUNNING = 1
+
 contains
 
-  function cycle_size(handle) bind(C, name='kz_dynamics_cycle_size') result(n)
+  function find_size(handle, what) bind(C, name='kz_dynamics_find_size') result(n)
     type(c_ptr), value :: handle
+    integer(c_int32_t), value :: what
     integer(c_int64_t) :: n
     type(dynamics_t), pointer :: d
 
     d => of_handle(handle)
-    n = 1 + packed_cycle_size(d%search%max_period) + d%search%max_period
-  end function cycle_size
+    n = 1 + packed_chaos_size()
+    if (what == OF_CYCLES) n = 1 + packed_cycle_size(d%search%max_period) + d%search%max_period
+  end function find_size
 
-  function chaos_size() bind(C, name='kz_dynamics_chaos_size') result(n)
-    integer(c_int64_t) :: n
-
-    n = packed_chaos_size()
-  end function chaos_size
-
-  !> found: states looked at; the catalogue of what was found; how often each period was blurred.
-  subroutine search_cycle(handle, n, state, closeness, found) bind(C, name='kz_dynamics_find_cycle')
+  !> found: states looked at; the catalogue of what was found; of cycles how often each period was blurred.
+  subroutine find(handle, what, n, state, number, found) bind(C, name='kz_dynamics_find')
     type(c_ptr), value :: handle
+    integer(c_int32_t), value :: what
     integer(c_int64_t), value :: n
     real(dp), intent(in) :: state(2, n)
-    real(dp), value :: closeness
+    real(dp), value :: number
     real(dp), intent(inout) :: found(*)
     type(dynamics_t), pointer :: d
     integer, allocatable :: n_blurred(:)
@@ -44,63 +44,33 @@ contains
 
     d => of_handle(handle)
     n_known = size(d%attractors)
-    first = 2 + packed_cycle_size(d%search%max_period)
-    last = first + d%search%max_period - 1
-    next = nint(found(1)) + 1
-    n_blurred = nint(found(first:last))
-    call find_cycle(d%search, state(1, :), state(2, :), closeness, next, n_blurred, d%attractors)
-    found(1) = next - 1
-    found(first:last) = n_blurred
-    call take_new(d, n_known, found(2))
-  end subroutine search_cycle
-
-  subroutine search_chaos(handle, state, found) bind(C, name='kz_dynamics_find_chaos')
-    type(c_ptr), value :: handle
-    real(dp), intent(in) :: state(2)
-    real(dp), intent(inout) :: found(*)
-    type(dynamics_t), pointer :: d
-    integer :: n_known
-
-    d => of_handle(handle)
-    n_known = size(d%attractors)
-    call find_chaos(d%search, d%regions, state(1), state(2), d%attractors)
-    call take_new(d, n_known, found)
-  end subroutine search_chaos
-
-  subroutine search_running(handle, n, state, age, found) bind(C, name='kz_dynamics_find_running')
-    type(c_ptr), value :: handle
-    integer(c_int64_t), value :: n
-    real(dp), intent(in) :: state(2, n)
-    integer(c_int64_t), value :: age
-    real(dp), intent(inout) :: found(*)
-    type(dynamics_t), pointer :: d
-    integer :: n_known
-
-    d => of_handle(handle)
-    n_known = size(d%attractors)
-    call find_running(d%search, d%regions, state, real(age, dp), d%attractors)
-    call take_new(d, n_known, found)
-  end subroutine search_running
-
-  !> Takes the attractors beyond the first n_known out of the catalogue, packed.
-  subroutine take_new(d, n_known, flat)
-    type(dynamics_t), intent(inout) :: d
-    integer, intent(in) :: n_known
-    real(dp), intent(inout) :: flat(*)
-
+    select case (what)
+    case (OF_CYCLES)
+      last = int(find_size(handle, what))
+      first = last - d%search%max_period + 1
+      next = nint(found(1)) + 1
+      n_blurred = nint(found(first:last))
+      call find_cycle(d%search, state(1, :), state(2, :), number, next, n_blurred, d%attractors)
+      found(1) = next - 1
+      found(first:last) = n_blurred
+    case (OF_RUNNING)
+      call find_running(d%search, d%regions, state, number, d%attractors)
+    case default
+      call find_chaos(d%search, d%regions, state(1, 1), state(2, 1), d%attractors)
+    end select
     associate (new => packed(d%attractors(n_known + 1:)))
-      flat(:size(new)) = new
+      found(2:1 + size(new)) = new
     end associate
     d%attractors = d%attractors(:n_known)
-  end subroutine take_new
+  end subroutine find
 
-  subroutine adopt(handle, flat) bind(C, name='kz_dynamics_adopt')
+  subroutine adopt(handle, found) bind(C, name='kz_dynamics_adopt')
     type(c_ptr), value :: handle
-    real(dp), intent(in) :: flat(*)
+    real(dp), intent(in) :: found(*)
     type(dynamics_t), pointer :: d
 
     d => of_handle(handle)
-    call append_known(d, flat(:max(packed_cycle_size(d%search%max_period), packed_chaos_size())))
+    call append_known(d, found(2:1 + max(packed_cycle_size(d%search%max_period), packed_chaos_size())))
   end subroutine adopt
 
   function packed_size(handle) bind(C, name='kz_dynamics_packed_size') result(n)
@@ -148,17 +118,6 @@ contains
     end do
   end subroutine append_known
 
-  !> 1 if it is known of an attractor only by averages along orbits that it is one, else 0.
-  function is_averaged(handle, number) bind(C, name='kz_dynamics_is_averaged') result(averaged)
-    type(c_ptr), value :: handle
-    integer(c_int64_t), value :: number
-    integer(c_int32_t) :: averaged
-    type(dynamics_t), pointer :: d
-
-    d => of_handle(handle)
-    averaged = merge(1, 0, d%attractors(number)%period == RUNNING .and. .not. has_band(d%attractors(number)))
-  end function is_averaged
-
   function attractor_count(handle) bind(C, name='kz_dynamics_count') result(n)
     type(c_ptr), value :: handle
     integer(c_int64_t) :: n
@@ -184,9 +143,9 @@ contains
     type(attractor_row_t) :: row
 
     row = attractor_row_t(PI*a%mean, a%mean_velocity, max(a%period, 0), a%winding, a%centre, merge(1, 0, a%symmetric), &
-                          a%mirror, PI*a%mean, &
+                          a%mirror, merge(1, 0, a%period == RUNNING .and. .not. has_band(a)), PI*a%mean, &
                           a%mean_velocity, a%amplitude, real(a%multiplier, dp), aimag(a%multiplier), a%lyapunov, &
-                              a%lyapunov_error)
+                          a%lyapunov_error)
     if (a%period <= 0) return
     row%theta = half_open(a%u(1))
     row%velocity = a%v(1) + 0.0_dp

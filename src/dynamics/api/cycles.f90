@@ -26,14 +26,13 @@ contains
     class(flow_t), allocatable :: flow, sampled
     type(attractor_t) :: cycle
     real(dp) :: u(1), v(1)
-    logical :: found, blurred
+    logical :: blurred
 
     call make_flow(pendulum, numerics, .true., flow)
     u = theta(1)/PI
     v = velocity(1)
     call states_to_map(flow, u, v)
-    call close_cycle(flow, pendulum%beta, int(n), u(1), v(1), max_distance, cycle, found, blurred)
-    if (found) then
+    if (close_cycle(flow, pendulum%beta, int(n), [u, v], max_distance, cycle, blurred)) then
       call states_to_physical(flow, cycle%u, cycle%v)
       call make_flow(pendulum, fine_numerics(pendulum), .false., sampled)
       call find_features(sampled, pendulum, cycle, cycle%u(:1), cycle%v(:1), cycle%period)

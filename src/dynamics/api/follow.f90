@@ -2,10 +2,10 @@
 module kz_api_follow
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_maps_states, only: states_to_physical
-  use kz_vector_map, only: map_t, flow_t, WIDTH
+  use kz_vector_map, only: flow_t
   use kz_api_dynamics, only: dynamics_t, of_handle, borrow_flow, return_flow
   use kz_cycles_cycles, only: attractor_t
-  use kz_labels_label, only: follow
+  use kz_labels_label, only: starts_t
   use kz_labels_orbits, only: decision_t
   use kz_labels_turns, only: count_turns
   use kz_maps_map_table, only: table_map_t, make_table_map
@@ -13,7 +13,7 @@ module kz_api_follow
   private
 
   !> kz_stepper of dynamics_labels.h.
-  integer(c_int32_t), parameter :: DIRECT = 0, SPARSE = 1, SINGLE = 2, LINEAR = 3
+  integer(c_int32_t), parameter :: SPARSE = 1, SINGLE = 2, LINEAR = 3
   !> Periods between two looks at the regions of starts that take hundreds of them.
   integer, parameter :: PRIMES(6) = [5, 7, 11, 13, 17, 19]
 
@@ -24,28 +24,34 @@ contains
     type(c_ptr), value :: handle
     integer(c_int32_t), value :: stepper
     integer(c_int64_t), value :: n, max_periods
-    real(dp), intent(inout) :: state(2, n)
-    integer(c_int32_t), intent(out) :: label(n)
-    integer(c_int64_t), intent(out) :: periods(n)
-    integer(c_int64_t), intent(out), optional :: turns(n)
+    real(dp), intent(inout), target :: state(2, n)
+    integer(c_int32_t), intent(out), target :: label(n)
+    integer(c_int64_t), intent(out), target :: periods(n)
+    integer(c_int64_t), intent(out), target, optional :: turns(n)
     type(dynamics_t), pointer :: d
-    class(flow_t), allocatable :: flow
-    class(map_t), allocatable :: map
+    class(flow_t), allocatable, target :: flow
+    type(table_map_t), target :: map
+    type(starts_t) :: starts
 
     d => of_handle(handle)
     periods = max_periods
     call borrow_flow(d, flow)
-    select case (stepper)
-    case (DIRECT)
-      call follow(flow, d%regions, d%attractors, state, label, periods, 1, turns)
-    case (SPARSE, SINGLE)
-      flow%single = stepper == SINGLE
-      call follow(flow, d%regions, d%attractors, state, label, periods, apart(d%attractors), turns)
-      flow%single = .false.
-    case default
-      allocate (map, source=make_table_map(d%table, merge(2, 6, stepper == LINEAR), flow))
-      call follow(map, d%regions, d%attractors, state, label, periods, 1, turns)
-    end select
+    flow%single = stepper == SINGLE
+    starts%map => flow
+    if (stepper == SPARSE .or. stepper == SINGLE) starts%apart = apart(d%attractors)
+    if (stepper > SINGLE) then
+      map = make_table_map(d%table, merge(2, 6, stepper == LINEAR), flow)
+      starts%map => map
+    end if
+    starts%regions => d%regions
+    starts%attractors => d%attractors
+    starts%state => state
+    starts%label => label
+    starts%periods => periods
+    if (present(turns)) starts%turns => turns
+    starts%items = n
+    call starts%run()
+    flow%single = .false.
     call leave_open(flow, state, label)
     call return_flow(d, flow)
   end subroutine follow_starts

@@ -8,7 +8,7 @@ module kz_api_label
   use kz_vector_locks, only: take_lock, leave_lock
   use kz_labels_carrier, only: carrier_t, orbit_t, make_exact_carrier
   use kz_labels_levels, only: prepare_level, carrier_of, is_useful, outlook_from, LEVEL_DOUBLE, LEVEL_FINE, LEVEL_QUAD
-  use kz_labels_orbits, only: decision_t, outlook_t, follow_orbits, DOUBTFUL, PENDING
+  use kz_labels_orbits, only: decision_t, orbits_t, follow_orbits, DOUBTFUL, PENDING
   use kz_labels_spread, only: add_ellipse
   use kz_vector_map, only: PI
   use kz_maps_states, only: wrapped
@@ -64,7 +64,7 @@ contains
   end subroutine label_starts
 
   !> The orbit of a start, which is known to the last place of its double, or, with `precisely`, of its pair.
-  pure subroutine begin_orbit(start, precisely, orbit)
+  elemental subroutine begin_orbit(start, precisely, orbit)
     type(start_t), intent(in) :: start !< rad, rad per drive radian
     logical, intent(in) :: precisely !< to all digits of its pairs, else to those of doubles
     type(orbit_t), intent(out) :: orbit !< the orbit
@@ -90,7 +90,7 @@ contains
   end subroutine begin_orbit
 
   !> The angle at which a start was released, rad.
-  pure function angle_of_release(start) result(from)
+  elemental function angle_of_release(start) result(from)
     type(start_t), intent(in) :: start
     real(dp) :: from
 
@@ -110,20 +110,21 @@ contains
     type(orbit_t), allocatable :: orbit(:), some(:)
     type(decision_t), allocatable :: found(:)
     integer, allocatable :: place(:)
-    type(outlook_t) :: outlook
+    type(orbits_t) :: like
     real(dp) :: handover
     integer :: level, now, next, i
 
     level = precision%level
     allocate (orbit(size(start)))
-    do i = 1, size(start)
-      call begin_orbit(start(i), level > LEVEL_DOUBLE, orbit(i))
-      decision(i)%from = angle_of_release(start(i))
-    end do
+    call begin_orbit(start, level > LEVEL_DOUBLE, orbit)
+    decision%from = angle_of_release(start)
+    like%regions => d%regions
+    like%attractors => d%attractors
+    like%most = most
     if (precision%series_steps > 0) then
       call make_drive(drive, d%search%pendulum, int(precision%series_steps))
       call make_exact_carrier(d%search%flow, drive, carrier)
-      call follow_orbits(carrier, d%regions, d%attractors, most, huge(1.0_dp), .false., outlook, orbit, decision)
+      call follow_orbits(like, carrier, huge(1.0_dp), orbit, decision)
       return
     end if
     call prepare(d, LEVEL_DOUBLE)
@@ -133,26 +134,20 @@ contains
       return
     end if
     call prepare(d, level)
-    outlook = outlook_from(d%levels, level)
+    like%outlook = outlook_from(d%levels, level)
     now = level
     do
       next = merge(int(precision%before), now - 1, now == level)
       if (.not. is_useful(d%levels, next)) next = next - 1
-      handover = huge(handover)
-      call prepare(d, now)
-      if (now > LEVEL_DOUBLE) then
-        call prepare(d, next)
-        handover = RATIO*d%levels%worst(next)
-        if (early .and. now == level) handover = sqrt(handover*d%levels%quad_error)
-      end if
+      handover = handover_to(d, now, next, early .and. now == level)
       call carrier_of(d%levels, now, d%flow, carrier)
-      if (.not. allocated(place)) then ! most orbits need no more: they are not copied
-        call follow_orbits(carrier, d%regions, d%attractors, most, handover, logical(precision%guess), outlook, orbit, &
-                           decision)
+      like%guess = precision%guess .and. now == level
+      if (now == level) then ! most orbits need no more: they are not copied
+        call follow_orbits(like, carrier, handover, orbit, decision)
       else
         some = orbit(place)
         found = decision(place)
-        call follow_orbits(carrier, d%regions, d%attractors, most, handover, .false., outlook, some, found)
+        call follow_orbits(like, carrier, handover, some, found)
         orbit(place) = some
         decision(place) = found
       end if
@@ -162,6 +157,21 @@ contains
       now = next
     end do
   end subroutine label_orbits
+
+  !> The error, rad, with which orbits of a level go on at the next one; makes both levels.
+  function handover_to(d, now, next, early) result(handover)
+    type(dynamics_t), intent(inout) :: d
+    integer, intent(in) :: now, next
+    logical, intent(in) :: early !< leave quad precision once half of its digits are lost
+    real(dp) :: handover
+
+    handover = huge(handover)
+    call prepare(d, now)
+    if (now == LEVEL_DOUBLE) return
+    call prepare(d, next)
+    handover = RATIO*d%levels%worst(next)
+    if (early) handover = sqrt(handover*d%levels%quad_error)
+  end function handover_to
 
   !> Makes a level at its first use, whichever thread asks.
   subroutine prepare(d, level)
@@ -193,9 +203,7 @@ contains
     call leave_lock(d%lock)
     precisely = level > LEVEL_FINE
     allocate (orbit(size(fresh)))
-    do i = 1, size(fresh)
-      call begin_orbit(start(fresh(i)), precisely, orbit(i))
-    end do
+    call begin_orbit(start(fresh), precisely, orbit)
     call d%onset%carry(d%search%pendulum, precisely, orbit)
     do i = 1, size(fresh)
       start(fresh(i)) = start_of(orbit(i), start(fresh(i))%theta(1), precisely)

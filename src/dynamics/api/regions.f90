@@ -14,29 +14,22 @@ module kz_api_regions
 
 contains
 
-  subroutine coarse_regions(handle, top) bind(C, name='kz_dynamics_coarse_regions')
-    type(c_ptr), value :: handle
-    real(dp), value :: top
-    type(dynamics_t), pointer :: d
-
-    d => of_handle(handle)
-    if (allocated(d%images)) deallocate (d%images)
-    d%regions = make_regions(COARSE_CELLS, COARSE_CELLS, top, is_mirrored(d%search%pendulum) /= 0)
-  end subroutine coarse_regions
-
-  subroutine fine_regions(handle, cells, top) bind(C, name='kz_dynamics_fine_regions')
+  subroutine make_grid(handle, cells, top) bind(C, name='kz_dynamics_regions')
     type(c_ptr), value :: handle
     integer(c_int64_t), value :: cells
     real(dp), value :: top
     type(dynamics_t), pointer :: d
+    integer :: n
 
     d => of_handle(handle)
     if (allocated(d%images)) deallocate (d%images)
+    n = merge(int(cells), COARSE_CELLS, cells > 0)
+    d%regions = make_regions(2*((n + 1)/2), n, top, is_mirrored(d%search%pendulum) /= 0)
+    if (cells == 0) return
     allocate (d%images(size(PERIODS)))
-    d%regions = make_regions(2*((int(cells) + 1)/2), int(cells), top, is_mirrored(d%search%pendulum) /= 0)
     call make_images(d%regions, d%search%flow, d%images)
     call update_regions(handle)
-  end subroutine fine_regions
+  end subroutine make_grid
 
   subroutine update_regions(handle) bind(C, name='kz_dynamics_update')
     type(c_ptr), value :: handle

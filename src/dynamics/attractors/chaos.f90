@@ -56,7 +56,7 @@ contains
     if (trapped .or. .not. any(visited)) return
     call measure_exponent(search%flow, attractor%lyapunov, attractor%lyapunov_error)
     if (attractor%lyapunov <= CONFIDENCE*attractor%lyapunov_error) return
-    call set_cover(search, regions, [(lane, lane=1, WIDTH)], VISITS, .false., attractor, visited, image)
+    image = set_cover(search, regions, [(lane, lane=1, WIDTH)], VISITS, .false., attractor, visited)
     call search%flow%to_physical(1)
     call find_features(search%sampling_flow, search%pendulum, attractor, search%flow%u(:1), search%flow%v(:1), &
                        FEATURE_PERIODS)
@@ -99,7 +99,7 @@ contains
     end if
     if (.not. (any(visited) .or. has_band(attractor))) return
     call widen(visited)
-    call set_cover(search, regions, [(lane, lane=1, WIDTH)], CARRIED_VISITS, .true., attractor, visited, image)
+    image = set_cover(search, regions, [(lane, lane=1, WIDTH)], CARRIED_VISITS, .true., attractor, visited)
     call append_cover(search, image, attractor, attractors)
   end subroutine carry_chaos
 
@@ -229,14 +229,14 @@ contains
   end function neighbours_part
 
   !> The cover: all visited cells. An attractor whose cover meets its own image in most cells is that image.
-  subroutine set_cover(search, regions, lanes, periods, widened, attractor, visited, image)
+  function set_cover(search, regions, lanes, periods, widened, attractor, visited) result(image)
     type(search_t), intent(inout) :: search !< whose flow holds orbits on the attractor
     type(regions_t), intent(in) :: regions !< say where cells lie
     integer, intent(in) :: lanes(:), periods !< lanes of these orbits; drive periods for which images are followed
     logical, intent(in) :: widened !< whether the visited cells are widened ones
     type(attractor_t), intent(inout) :: attractor !< whose symmetry and cover are set
     logical, intent(inout) :: visited(COVER**2) !< cells that orbits visit
-    logical, allocatable, intent(out) :: image(:) !< boxes of the cover of the images
+    logical, allocatable :: image(:) !< boxes of the cover of the images
 
     allocate (image(COVER**2), source=.false.)
     attractor%symmetry = pairing_symmetry(search%pendulum)
@@ -249,7 +249,7 @@ contains
     attractor%symmetric = 2*count(visited .and. image) > count(visited)
     if (attractor%symmetric) visited = visited .or. image
     attractor%cover = cells_of(visited)
-  end subroutine set_cover
+  end function set_cover
 
   !> Marks the cells that the images of some lanes visit, half a drive period later; the lanes stay as they are.
   subroutine visit_images(search, regions, lanes, periods, image)

@@ -114,7 +114,7 @@ contains
       promise = promise_of(search, period, x, farthest, attractors)
       found = promise == KNOWN_ONE
       if (promise /= UNSURE) return
-      call close_cycle(search%fine, search%pendulum%beta, period, x(1), x(2), farthest, candidate, found, blurred)
+      found = close_cycle(search%fine, search%pendulum%beta, period, x, farthest, candidate, blurred)
       candidate%symmetry = pairing_symmetry(search%pendulum)
       if (found) call complete_attractor(search%sampling_flow, candidate, found)
       if (found) found = candidate%winding == 0 .or. is_driven(search%pendulum) /= 0

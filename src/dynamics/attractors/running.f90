@@ -109,7 +109,7 @@ contains
     attractor%centre = ROTATING
     attractor%winding = nint(sign(1.0_dp, attractor%mean_velocity))
     call widen(visited) ! to where longer orbits would come
-    call set_cover(search, regions, lane, VISITS, .true., attractor, visited, image)
+    image = set_cover(search, regions, lane, VISITS, .true., attractor, visited)
     call append_cover(search, image, attractor, attractors)
   end subroutine find_running
 

@@ -154,7 +154,7 @@ contains
     logical, intent(out) :: found !< whether Newton's method finds the curve beside the seed
     real(dp), parameter :: NEAR = 0.1_dp
     real(dp) :: normals(4, 4), guess(UNKNOWNS)
-    integer :: n, try, iterations
+    integer :: n, try
 
     n = 2*walker%system%n
     normals = reshape([0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, &
@@ -164,8 +164,8 @@ contains
       guess(:2) = normals(:2, try)
       guess(n + 1:n + 2) = normals(3:, try)
       walker%y(:n + 2) = seed(:n + 2)
-      call newton(walker%system, 12, FAR, CLOSE, walker%y, iterations, guess)
-      found = iterations > 0 .and. maxval(abs(walker%y(:n + 2) - seed(:n + 2))) < NEAR
+      found = newton(walker%system, 12, FAR, CLOSE, walker%y, guess) > 0
+      if (found) found = maxval(abs(walker%y(:n + 2) - seed(:n + 2))) < NEAR
       if (found) call tangent_at(walker%system, walker%y, guess, walker%tangent, found, walker%sharp)
       if (found) exit
     end do
@@ -240,7 +240,7 @@ contains
         kind%multiplier = -1
         next = parent%point(1, kind%points + 1)
         if (at_rest) first = [PI*anint(y(1)/PI), 0.0_dp]
-        if (half) call images(system, COARSE, 0, parent%point(:, kind%points), parent%place, 1, 1, later, on)
+        if (half) on = images(system, COARSE, 0, [parent%point(:, kind%points), parent%place], 1, later)
         if (half) next = later(1, 0, 1)
         if (at_rest) next = first(1)
         kind%turns = nint((next - kind%side*first(1))/(2*PI))

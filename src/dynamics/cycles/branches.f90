@@ -158,7 +158,7 @@ contains
     logical, intent(out) :: found
     real(dp), parameter :: LONGEST_CORRECTION = 0.5_dp ! rad
     real(dp) :: guess(UNKNOWNS)
-    integer :: n, iterations
+    integer :: n
 
     n = 2*walker%system%n
     walker%y(:n + 2) = start(:n + 2)
@@ -166,9 +166,8 @@ contains
     found = side /= 0
     if (side == 0) then
       walker%system%columns = 0
-      call newton(walker%system, 25, LONGEST_CORRECTION, 1e-12_dp, walker%y, iterations)
+      found = newton(walker%system, 25, LONGEST_CORRECTION, 1e-12_dp, walker%y) > 0
       walker%system%columns = 1
-      found = iterations > 0
       guess(n + 1) = 1
     else
       guess(:n) = side*tangent_of_fold(walker, start)

@@ -13,15 +13,15 @@ contains
   !> y becomes the solution near it: with a normal, on the plane through y across it. Its steps shrink until rounding
   !> stops them, or until the next one, if they go on to square, is below SMALL: in narrow bands they square below 1e-7
   !> rad alone.
-  subroutine newton(system, most, longest, close, y, iterations, normal, tangent)
+  function newton(system, most, longest, close, y, normal, tangent) result(iterations)
     type(system_t), intent(inout) :: system !< the equations
     integer, intent(in) :: most !< iterations until a step is shorter than `close`; a few more may follow
     real(dp), intent(in) :: longest !< longer steps are shortened to it, rad
     real(dp), intent(in) :: close !< the last step is shorter, rad
     real(dp), intent(inout) :: y(:) !< the unknowns: a guess, then the solution
-    integer, intent(out) :: iterations !< until a step was shorter than `close`; 0: no solution
     real(dp), intent(in), optional :: normal(:) !< normal of the plane, by the unknowns
     real(dp), intent(out), optional :: tangent(:) !< unit vector on the normal's side, at the begin of the last step
+    integer :: iterations !< until a step was shorter than `close`; 0: no solution
     real(dp), parameter :: SMALL = 1e-9_dp
     integer, parameter :: MORE = 3
     real(dp) :: matrix(UNKNOWNS, UNKNOWNS), side(UNKNOWNS, 2), start(UNKNOWNS), last, size_now, next
@@ -63,7 +63,7 @@ contains
       last = size_now
     end do
     iterations = 0
-  end subroutine newton
+  end function newton
 
   !> The unit tangent of the branch or curve at its point y, on the side of `guess`, and the same point with FINE steps.
   subroutine tangent_at(system, y, guess, tangent, regular, sharp)

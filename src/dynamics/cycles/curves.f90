@@ -122,26 +122,27 @@ contains
   end subroutine set_place
 
   !> image = that of each of the first n points after one or both halves of a period, with derivatives up to `order`.
-  subroutine images(system, fineness, order, y, at, n, halves, image, exists, ends_early)
+  function images(system, fineness, order, y, halves, image, ends_early) result(exists)
     type(system_t), intent(inout) :: system !< system whose tables serve
     integer, intent(in) :: fineness !< COARSE or FINE
     integer, intent(in) :: order !< 0 .. 3
-    integer, intent(in) :: n !< points
+    real(dp), intent(in) :: y(:) !< points: rad, rad per drive radian; behind them their place
     integer, intent(in) :: halves !< half periods until the image
-    real(dp), intent(in) :: y(:) !< the points: rad, rad per drive radian
-    real(dp), intent(in) :: at(2) !< the place
     real(dp), intent(out) :: image(2, 0:TERMS, POINTS) !< (angle and velocity, value and derivatives, point): rad
-    logical, intent(out) :: exists !< whether there is a damped pendulum
     logical, intent(in), optional :: ends_early !< the image of the last point is that of half a period before
+    logical :: exists !< whether there is a damped pendulum
     real(dp), dimension(LANES) :: u, v
     real(dp), dimension(LANES, TERMS) :: theta, velocity
-    integer :: first, lane, period, n_steps
+    integer :: n, first, lane, period, n_steps
     logical :: early
 
+    n = size(y)/2 - 1
     if (system%jets(fineness)%n_steps == 0) call make_jets(int(system%plane%steps)*fineness/FINE, system%jets(fineness))
-    exists = maxval(abs(system%set_at(:, fineness) - at)) <= 0
-    if (.not. exists) call set_place(system, system%jets(fineness), at, exists)
-    system%set_at(:, fineness) = merge(at, [huge(at), huge(at)], exists)
+    associate (at => y(2*n + 1:))
+      exists = maxval(abs(system%set_at(:, fineness) - at)) <= 0
+      if (.not. exists) call set_place(system, system%jets(fineness), at, exists)
+      system%set_at(:, fineness) = merge(at, [huge(at), huge(at)], exists)
+    end associate
     if (.not. exists) return
     do first = 1, n, LANES
       theta = 0
@@ -169,7 +170,7 @@ contains
       end do
     end do
     exists = all(abs(image(:, 0, :n)) < 1e6_dp)
-  end subroutine images
+  end function images
 
   function orbit(plane, at, halves, n, state) bind(C, name='kz_curve_orbit') result(exists)
     type(plane_t), intent(in) :: plane
@@ -180,15 +181,13 @@ contains
     integer(c_int32_t) :: exists
     type(system_t) :: system
     real(dp) :: image(2, 0:TERMS, POINTS)
-    logical :: found
     integer(c_int64_t) :: i
 
     call make_system(plane, kind_t(1, 1, 1, 0), 0, .false., system)
     exists = 1
     do i = 1, n
-      call images(system, COARSE, 0, state(:, i - 1), at, 1, int(halves), image, found)
-      if (.not. found) exists = 0
-      if (.not. found) return
+      exists = merge(1, 0, images(system, COARSE, 0, [state(:, i - 1), at], int(halves), image))
+      if (exists == 0) return
       state(:, i) = image(:, 0, 1)
     end do
   end function orbit
@@ -206,8 +205,7 @@ contains
     integer :: n, i, next, side
 
     n = system%n
-    call images(system, fineness, order, y, y(2*n + 1:2*n + 2), n, 2*system%stride, system%image, exists, &
-                system%kind%half /= 0)
+    exists = images(system, fineness, order, y(:2*n + 2), 2*system%stride, system%image, system%kind%half /= 0)
     if (.not. exists) return
     associate (image => system%image, kind => system%kind, basis => system%basis(:, :system%columns))
       residual = 0

@@ -56,19 +56,19 @@ contains
   !> Newton's method on the n-period map from (u, v), with a fine flow. `found`: it converges within `max_distance` of
   !> the start; the cycle, attracting or not, then has its smallest period. `blurred`: it converges, but so near a
   !> bifurcation that rounding does not define the point.
-  subroutine close_cycle(flow, beta, n, u, v, max_distance, cycle, found, blurred)
+  function close_cycle(flow, beta, n, start, max_distance, cycle, blurred) result(found)
     class(flow_t), intent(inout) :: flow !< a fine flow
     real(dp), intent(in) :: beta !< damping
     integer, intent(in) :: n !< a period that closes the cycle
-    real(dp), intent(in) :: u, v !< start, half-turns, rad per drive radian
+    real(dp), intent(in) :: start(2) !< half-turns, rad per drive radian
     real(dp), intent(in) :: max_distance !< farthest that the cycle may lie from the start, rad
     type(attractor_t), intent(out) :: cycle !< the cycle: points, multipliers, period, winding
-    logical, intent(out) :: found !< whether a cycle was found
     logical, intent(out) :: blurred !< whether it was left undecided by rounding
+    logical :: found !< whether a cycle was found
     real(dp) :: x(2), matrix(2, 2)
     integer :: period
 
-    x = [u, v]
+    x = start
     call newton(flow, n, max_distance, x, found, blurred)
     if (.not. found) return
     period = minimal_period(flow, n, x)
@@ -76,7 +76,7 @@ contains
     if (.not. found) return
     call orbit_of(flow, period, x, cycle, matrix)
     cycle%multiplier = eigenvalues(matrix, exp(-2*PI*beta*period))
-  end subroutine close_cycle
+  end function close_cycle
 
   !> True if a closed cycle attracts; it then sets the exponent and the symmetry of the attractor.
   subroutine complete_attractor(sampling_flow, cycle, attracts)

@@ -15,7 +15,7 @@ module kz_cycles_described
   !> kz_attractor of dynamics.h.
   type, bind(C) :: attractor_row_t
     real(dp) :: theta, velocity
-    integer(c_int32_t) :: period, winding, centre, symmetric, mirror
+    integer(c_int32_t) :: period, winding, centre, symmetric, mirror, averaged
     real(dp) :: mean, mean_velocity, amplitude, multiplier_re(2), multiplier_im(2), lyapunov, lyapunov_error
   end type attractor_row_t
 

@@ -27,13 +27,11 @@ contains
     real(dp), parameter :: LONGEST = 0.5_dp
     real(dp) :: y(UNKNOWNS), residual(UNKNOWNS), matrix(UNKNOWNS, UNKNOWNS)
     type(system_t) :: system
-    integer :: iterations
     logical :: exists
 
     call make_system(plane, cycle%kind, 0, .false., system)
     y = unknowns_of(cycle)
-    call newton(system, 25, LONGEST, 1e-12_dp, y, iterations)
-    exists = iterations > 0
+    exists = newton(system, 25, LONGEST, 1e-12_dp, y) > 0
     if (exists) call linearise(system, FINE, 1, y, residual, matrix, exists)
     found = merge(1, 0, exists)
     if (exists) cycle = cycle_of(system, y)
@@ -47,13 +45,11 @@ contains
     real(dp), parameter :: LONGEST = 0.3_dp
     real(dp) :: y(UNKNOWNS)
     type(system_t) :: system
-    integer :: iterations
 
     call make_system(plane, cycle%kind, 1, .true., system)
     system%basis(:, 1) = along
     y = unknowns_of(cycle)
-    call newton(system, 20, LONGEST, 1e-12_dp, y, iterations)
-    found = merge(1, 0, iterations > 0)
+    found = merge(1, 0, newton(system, 20, LONGEST, 1e-12_dp, y) > 0)
     if (found == 1) cycle = cycle_of(system, y)
   end function on_line
 

@@ -55,7 +55,7 @@ contains
       guess(n + 1:n + 2) = guess(n + 1:n + 2) + matmul(walker%system%basis(:, :walker%system%columns), &
                                     walker%step*walker%tangent(n + 1:unknown))
       y = guess
-      call newton(walker%system, MOST, FAR, min(CLOSE, OF_STEP*walker%step), y, iterations, walker%tangent, tangent)
+      iterations = newton(walker%system, MOST, FAR, min(CLOSE, OF_STEP*walker%step), y, walker%tangent, tangent)
       found = iterations > 0
       if (found) then
         correction = distance(walker%system, y, guess)/walker%step
@@ -95,7 +95,7 @@ contains
     real(dp), parameter :: ZERO(OF_WIDTH:FLIP) = [1e-6_dp, 1e-9_dp, 1e-9_dp, 1e-9_dp]
     type(form_t) :: form
     real(dp) :: place(2), numbers(2), middle
-    integer :: n, i, iterations
+    integer :: n, i
 
     n = 2*walker%system%n
     place = [0.0_dp, distance(walker%system, walker%y, from)]
@@ -108,8 +108,7 @@ contains
       walker%y(:n) = from(:n) + middle*heading(:n)
       walker%y(n + 1:n + 2) = from(n + 1:n + 2) + matmul(walker%system%basis(:, :walker%system%columns), &
                                                          middle*heading(n + 1:n + walker%system%columns))
-      call newton(walker%system, 12, FAR, CLOSE, walker%y, iterations, heading)
-      found = iterations > 0
+      found = newton(walker%system, 12, FAR, CLOSE, walker%y, heading) > 0
       if (found .and. which <= OF_FORM) &
         call tangent_at(walker%system, walker%y, heading, walker%tangent, found, walker%sharp)
       if (.not. found) return
@@ -169,7 +168,7 @@ contains
       parents%there(REST) = system%kind%side < 0 .and. n == 1
     else if (system%plane%half_period /= 0) then
       if (system%kind%side > 0 .and. system%kind%turns == 0 .and. mod(n*system%stride, 2) == 1) &
-        call images(system, COARSE, 0, y, y(2*n + 1:2*n + 2), n, system%stride, later, parents%there(MIRROR))
+        parents%there(MIRROR) = images(system, COARSE, 0, y(:2*n + 2), system%stride, later)
     end if
     do i = 1, n
       other = mod(i - 1 + n/2, n) + 1

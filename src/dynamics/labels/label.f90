@@ -7,9 +7,12 @@ module kz_labels_label
   use kz_grown_grid, only: regions_t, find_regions, chaos_region
   implicit none
   private
-  public :: follow
+  public :: starts_t
 
-  !> Starts in the lanes of a map, and what becomes of them.
+  !> Starts in the lanes of a map. `run` follows start i for periods(i) at most. label(i) = attractor (from 1) that it
+  !> ends on, 0 where it has not settled; periods(i) becomes its first period inside a trapping region, late by less
+  !> than `apart`, or the periods followed. state: physical starts (half-turns, rad per drive radian); it becomes the
+  !> states where the orbits were left, in the map's coordinates.
   type, extends(queued_lanes_t) :: starts_t
     class(map_t), pointer :: map => null()
     type(regions_t), pointer :: regions => null()
@@ -17,7 +20,7 @@ module kz_labels_label
     real(dp), pointer :: state(:, :) => null()
     integer(c_int32_t), pointer :: label(:) => null()
     integer(c_int64_t), pointer :: periods(:) => null()
-    integer(c_int64_t), pointer :: turns(:) => null()
+    integer(c_int64_t), pointer :: turns(:) => null() !< net turns to add to the angle of a last state
     integer(c_int64_t) :: most(CAPACITY) = 0 !< periods that the start of a lane is followed at most
     integer :: apart = 1 !< periods from one look at the regions to the next
   contains
@@ -28,32 +31,6 @@ module kz_labels_label
   end type starts_t
 
 contains
-
-  !> Follows start i for periods(i) at most. label(i) = attractor (from 1) that it ends on, 0 where it has not settled;
-  !> periods(i) becomes its first period inside a trapping region, or the periods followed. state: physical starts
-  !> (half-turns, rad per drive radian); it becomes the states where the orbits were left, in the map's coordinates.
-  subroutine follow(map, regions, attractors, state, label, periods, apart, turns)
-    class(map_t), intent(inout), target :: map !< map that moves the states by one period
-    type(regions_t), intent(in), target :: regions !< the trapping regions
-    type(attractor_t), intent(in), target :: attractors(:) !< the catalogue, numbered from 1
-    real(dp), intent(inout), target :: state(:, :) !< [2, n] in and out
-    integer(c_int32_t), intent(out), target :: label(:) !< attractor from 1, 0 = not settled
-    integer(c_int64_t), intent(inout), target :: periods(:) !< in: most periods; out: first one inside a trapping region
-    integer, intent(in) :: apart !< periods between checks of the regions; the reported period is late by less than that
-    integer(c_int64_t), intent(out), target, optional :: turns(:) !< net turns to add to the angle of a last state
-    type(starts_t) :: starts
-
-    starts%map => map
-    starts%regions => regions
-    starts%attractors => attractors
-    starts%state => state
-    starts%label => label
-    starts%periods => periods
-    starts%apart = apart
-    starts%items = size(label)
-    if (present(turns)) starts%turns => turns
-    call starts%run()
-  end subroutine follow
 
   subroutine admit(self, n)
     class(starts_t), intent(inout) :: self

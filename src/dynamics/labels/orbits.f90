@@ -13,7 +13,7 @@ module kz_labels_orbits
   use kz_maps_states, only: angle_difference
   implicit none
   private
-  public :: decision_t, outlook_t, follow_orbits, DOUBTFUL, PENDING, TOLERABLE
+  public :: decision_t, outlook_t, orbits_t, follow_orbits, DOUBTFUL, PENDING, TOLERABLE
 
   !> Labels besides attractor numbers: the error is too large; the orbit is to be followed elsewhere.
   integer, parameter :: DOUBTFUL = -1, PENDING = -2
@@ -81,29 +81,21 @@ module kz_labels_orbits
 
 contains
 
-  !> Follows orbits up to age `most`. decision(i)%end%label = PENDING and the orbit as it is then where its error has
-  !> reached `handover`, if that is below TOLERABLE.
-  subroutine follow_orbits(carrier, regions, attractors, most, handover, guess, outlook, orbit, decision)
+  !> Follows orbits up to the age `most`. decision(i)%end%label = PENDING and the orbit as it is then where its error
+  !> has reached `handover`, if that is below TOLERABLE.
+  subroutine follow_orbits(like, carrier, handover, orbit, decision)
+    type(orbits_t), intent(in) :: like !< has the regions, the attractors, what is forecast, the ages
     type(carrier_t), intent(inout), target :: carrier !< moves the orbits by one period
-    type(regions_t), intent(in), target :: regions !< the trapping regions
-    type(attractor_t), intent(in), target :: attractors(:) !< the catalogue, numbered from 1
-    integer(c_int64_t), intent(in) :: most !< periods
     real(dp), intent(in) :: handover !< rad
-    logical, intent(in) :: guess !< follow doubtful orbits on, to where the states alone end
-    type(outlook_t), intent(in) :: outlook !< from the level that decides
     type(orbit_t), intent(inout), target :: orbit(:) !< [n] in and out
     type(decision_t), intent(inout), target :: decision(:) !< [n] as they are made, in; out
     type(orbits_t) :: orbits
 
+    orbits = like
     orbits%carrier => carrier
-    orbits%regions => regions
-    orbits%attractors => attractors
     orbits%orbit => orbit
     orbits%decision => decision
-    orbits%most = most
     orbits%handover = handover
-    orbits%guess = guess
-    orbits%outlook = outlook
     orbits%items = size(orbit)
     call orbits%run()
   end subroutine follow_orbits

@@ -129,7 +129,7 @@ contains
     logical :: found, blurred
 
     number = 0
-    call close_cycle(search%fine, search%pendulum%beta, period, u, v, FARTHEST, new, found, blurred)
+    found = close_cycle(search%fine, search%pendulum%beta, period, [u, v], FARTHEST, new, blurred)
     new%symmetry = pairing_symmetry(search%pendulum)
     if (found) call complete_attractor(search%sampling_flow, new, found)
     if (.not. found) return

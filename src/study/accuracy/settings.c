@@ -139,7 +139,7 @@ static void settings_compare(const kz_reference_labels *reference, const int32_t
 static kz_status set_up(measurement *g) {
   const kz_setting *s = g->setting;
   kz_dynamics_unpack(g->dynamics, g->reference->packed_size, g->reference->packed);
-  kz_dynamics_coarse_regions(g->dynamics, g->reference->max_velocity);
+  kz_dynamics_regions(g->dynamics, 0, g->reference->max_velocity);
   kz_regions_grow(g->dynamics, g->reference->total, g->reference->max_velocity);
   kz_dynamics_update(g->dynamics);
   if (s->method == KZ_METHOD_ICM)

@@ -88,7 +88,7 @@ static void probe_begin(kz_dynamics *dynamics, const kz_pendulum *pendulum, int6
   const double rest[NEAR_REST] = {0.01, M_PI - 0.01, 0.3, M_PI - 0.3};
   kz_dynamics_starts(&window, seed, starts, state);
   for (int64_t i = 0; i < NEAR_REST && i < starts; i++) state[2 * i] = rest[i] / M_PI, state[2 * i + 1] = 0;
-  kz_dynamics_coarse_regions(dynamics, kz_dynamics_max_velocity(dynamics, &window));
+  kz_dynamics_regions(dynamics, 0, kz_dynamics_max_velocity(dynamics, &window));
 }
 
 /* The cycles that are known join those of the place. */

@@ -27,14 +27,14 @@ static double end_of(const kz_sweep_walk *walk, double begin, int32_t kind) {
 }
 
 void kz_flutter_drives(const kz_pendulum *pendulum, double *onset, double *end) {
-  const kz_path path = {pendulum_of_drive, pendulum};
   const kz_attractor inverted = {.period = 1, .centre = 1, .symmetric = 1, .theta = M_PI};
   double low, high;
   kz_sweep_walk walk;
   *onset = *end = NAN;
   kz_standing_drives(pendulum, &low, &high);
   if (!(pendulum->beta > 0) || isnan(high)) return;
-  kz_sweep_follow(&path, (low + high) / 2, TOP, LONGEST, &inverted, 0, &walk);
+  const kz_path path = {.pendulum = pendulum_of_drive, .context = pendulum, .from = (low + high) / 2, .to = TOP};
+  kz_sweep_follow(&path, LONGEST, &inverted, 0, &walk);
   if (walk.piece->reached >= 0 || walk.piece->end_kind != KZ_END_PERIOD_DOUBLING) return;
   *onset = walk.piece->end;
   *end = end_of(&walk, end_of(&walk, *onset, KZ_END_SYMMETRY_BREAKING), KZ_END_PERIOD_DOUBLING);

@@ -78,8 +78,9 @@ static bool may_decide(const kz_labeller *l, decider by, const kz_label *label) 
 }
 
 static uint8_t evidence_of(const kz_labeller *l, decider by, const kz_decision *decision) {
-  if (decision->end.label > 0 && l->dynamics && kz_dynamics_is_averaged(l->dynamics, decision->end.label))
-    return KZ_AVERAGED;
+  kz_attractor attractor = {.averaged = 0};
+  if (decision->end.label > 0 && l->dynamics) kz_dynamics_attractor(l->dynamics, decision->end.label, &attractor);
+  if (attractor.averaged) return KZ_AVERAGED;
   return l->way == KZ_BY_MARKS && !decision->decided ? KZ_LEFT : row_of(l, by)->evidence;
 }
 

@@ -13,7 +13,7 @@ enum {
   FIRST_LENGTH = 128,   /* periods of the first round; a round that finds nothing doubles it */
   FIRST_OF_CYCLES = 32, /* first round if only cycles are sought, which is cheap */
   TILE = 256,           /* starts per tile */
-  CHUNK = 64,           /* states per search, at most what kz_dynamics_find_cycle takes */
+  CHUNK = 64,           /* states per search, at most what kz_dynamics_find takes */
   PILOT_STARTS = 512,   /* starts that are followed before regions grow */
   WORTH_CELLS = 4096,   /* least number of cells or starts for which regions pay */
   MANY_CELLS = 40000,
@@ -84,67 +84,76 @@ static kz_status follow_pending(const kz_run *run, following *f, int64_t periods
 
 typedef struct {
   kz_dynamics *dynamics;
-  enum { CYCLE, RUNNING, CHAOS } kind;
-  int64_t n, age;          /* states; periods after their starts */
+  kz_find what;
+  int64_t n;
   double state[2 * CHUNK]; /* states of the starts; for chaos only the first */
-  double closeness;        /* rad; of cycles */
-  double *found;           /* [size] what was found before, then what is found */
-  int64_t size;
+  double number;           /* as of kz_dynamics_find */
+  double *found;           /* [size] earlier finds, and the new ones; then a record */
+  size_t size;
 } seeking;
 
 static kz_status seek_tile(void *context, int64_t tile, void *record) {
   const seeking *s = context;
   (void)tile;
-  memcpy(record, s->found, (size_t)s->size * sizeof(double));
-  if (s->kind == CYCLE)
-    kz_dynamics_find_cycle(s->dynamics, s->n, s->state, s->closeness, record);
-  else if (s->kind == RUNNING)
-    kz_dynamics_find_running(s->dynamics, s->n, s->state, s->age, record);
-  else
-    kz_dynamics_find_chaos(s->dynamics, s->state, record);
+  memcpy(record, s->found, s->size * sizeof(double));
+  kz_dynamics_find(s->dynamics, s->what, s->n, s->state, s->number, record);
   return KZ_OK;
 }
 
-/* One search by one rank; what it finds joins the catalogue of every rank. `record` [size]: a buffer. */
-static kz_status search_seek(const kz_run *run, seeking *s, double *record) {
+/* One search by one rank; its finds join the catalogue of every rank. */
+static kz_status search_seek(const kz_run *run, seeking *s) {
   static const char *const name[] = {"cycles", "running", "chaos"};
-  const kz_stage stage = kz_stage_for_all(name[s->kind], 1, (size_t)s->size * sizeof(double), seek_tile, s);
-  KZ_TRY(kz_stage_run(run, &stage, record));
-  memcpy(s->found, record, (size_t)s->size * sizeof(double));
-  kz_dynamics_adopt(s->dynamics, s->found + (s->kind == CYCLE ? 1 : 0));
+  const kz_stage stage = kz_stage_for_all(name[s->what], 1, s->size * sizeof(double), seek_tile, s);
+  KZ_TRY(kz_stage_run(run, &stage, s->found + s->size));
+  memcpy(s->found, s->found + s->size, s->size * sizeof(double));
+  kz_dynamics_adopt(s->dynamics, s->found);
   return KZ_OK;
+}
+
+/* A search of a kind; the caller frees `found`. */
+static seeking seeking_of(const following *f, kz_find what, double number) {
+  const size_t size = (size_t)kz_dynamics_find_size(f->dynamics, what);
+  return (seeking){.dynamics = f->dynamics,
+                   .what = what,
+                   .number = number,
+                   .found = kz_malloc(2 * size * sizeof(double)),
+                   .size = size};
+}
+
+/* Sets n states, `step` pending starts apart, for a search that begins. */
+static void seek_from(seeking *s, const following *f, int64_t n, int64_t first, int64_t step) {
+  s->n = n;
+  for (int64_t i = 0; i < n; i++)
+    memcpy(s->state + 2 * i, f->state + 2 * f->pending[first + i * step / n], 2 * sizeof(double));
+  memset(s->found, 0, s->size * sizeof(double));
 }
 
 /* Looks for cycles among the first pending starts. */
 static kz_status find_cycles(const kz_run *run, const following *f, double closeness) {
-  seeking s = {.dynamics = f->dynamics, .closeness = closeness, .size = kz_dynamics_cycle_size(f->dynamics)};
-  KZ_AUTOFREE double *found = s.found = kz_calloc(2 * (size_t)s.size, sizeof(double)); /* states, then a record */
+  seeking s = seeking_of(f, KZ_FIND_CYCLE, closeness);
+  KZ_AUTOFREE double *found = s.found;
   for (int64_t first = 0; first < f->n && first < f->sought; first += CHUNK) {
-    s.n = f->n - first < CHUNK ? f->n - first : CHUNK;
-    for (int64_t i = 0; i < s.n; i++) memcpy(s.state + 2 * i, f->state + 2 * f->pending[first + i], 2 * sizeof(double));
-    memset(found, 0, (size_t)s.size * sizeof(double));
-    while ((int64_t)found[0] < s.n) KZ_TRY(search_seek(run, &s, found + s.size));
+    const int64_t n = kz_smaller(f->n - first, CHUNK);
+    seek_from(&s, f, n, first, n);
+    while ((int64_t)found[0] < n) KZ_TRY(search_seek(run, &s));
   }
   return KZ_OK;
 }
 
 /* Starts that end on no cycle: attractors with covers are found one by one, a chaotic one from one pending start, a
  * running state among some of them. */
-static kz_status find_covered(const kz_run *run, following *f, int kind) {
-  seeking s = {.dynamics = f->dynamics, .kind = kind, .age = f->age, .size = kz_dynamics_chaos_size()};
-  KZ_AUTOFREE double *found = s.found = kz_calloc(2 * (size_t)s.size, sizeof(double));
+static kz_status find_covered(const kz_run *run, following *f, kz_find what) {
+  seeking s = seeking_of(f, what, (double)f->age);
+  KZ_AUTOFREE double *found = s.found;
+  const bool chaos = what == KZ_FIND_CHAOS;
   for (int attempt = 0; attempt < COVER_TRIES && f->n > 0 && !f->cycles_alone; attempt++) {
     const int64_t known = kz_dynamics_count(f->dynamics);
-    s.n = kind == CHAOS ? 1 : kz_smaller(f->n, RUNNING_STARTS);
-    for (int64_t i = 0; i < s.n; i++)
-      memcpy(s.state + 2 * i, f->state + 2 * f->pending[kind == CHAOS ? (attempt * 7) % f->n : i * f->n / s.n],
-             2 * sizeof(double));
-    memset(found, 0, (size_t)s.size * sizeof(double));
-    KZ_TRY(search_seek(run, &s, found + s.size));
+    seek_from(&s, f, chaos ? 1 : kz_smaller(f->n, RUNNING_STARTS), chaos ? (attempt * 7) % f->n : 0, f->n);
+    KZ_TRY(search_seek(run, &s));
     if (kz_dynamics_count(f->dynamics) > known) {
       kz_dynamics_update(f->dynamics);
       KZ_TRY(follow_pending(run, f, COVER_PERIODS));
-    } else if (kind == RUNNING) {
+    } else if (!chaos) {
       break;
     }
   }
@@ -163,11 +172,11 @@ static kz_status search_on(const kz_run *run, following *f, int64_t max_periods)
     const int64_t known = kz_dynamics_count(f->dynamics);
     KZ_TRY(find_cycles(run, f, done >= max_periods ? LAST_CLOSENESS : CLOSENESS));
     if (kz_dynamics_count(f->dynamics) > known) continue;
-    KZ_TRY(find_covered(run, f, RUNNING));
+    KZ_TRY(find_covered(run, f, KZ_FIND_RUNNING));
     if (done >= max_periods || f->n == 0) break;
     length = kz_smaller(2 * length, max_periods - done);
   }
-  return find_covered(run, f, CHAOS);
+  return find_covered(run, f, KZ_FIND_CHAOS);
 }
 
 kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t sought, int64_t max_periods, int64_t n,
@@ -198,9 +207,9 @@ void kz_regions_grow(kz_dynamics *dynamics, int64_t cells, double max_velocity) 
       0.1; /* share of the grid that is trapped: a finer one may trap much more, and each cell pays for what is not */
   const int64_t coarse = kz_regions_cells(cells), fine = (int64_t)fmin(0.7 * sqrt((double)cells), MOST_CELLS);
   if (coarse == 0) return;
-  kz_dynamics_fine_regions(dynamics, coarse, max_velocity);
+  kz_dynamics_regions(dynamics, coarse, max_velocity);
   if (cells >= MANY_CELLS && fine > coarse && kz_dynamics_trapped_share(dynamics) < few)
-    kz_dynamics_fine_regions(dynamics, fine, max_velocity);
+    kz_dynamics_regions(dynamics, fine, max_velocity);
 }
 
 static kz_status table_rows(void *context, int64_t first, int64_t n, void *record) {
@@ -231,7 +240,7 @@ kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_se
   KZ_AUTOFREE int32_t *own = kz_malloc((size_t)search->starts * sizeof *own);
   if (!label) label = own;
   kz_dynamics_starts(&search->window, search->seed, search->starts, state);
-  kz_dynamics_coarse_regions(dynamics, speed);
+  kz_dynamics_regions(dynamics, 0, speed);
   KZ_TRY(kz_discover(run, dynamics, search->sought, search->max_periods, pilots, state, label));
   kz_regions_grow(dynamics, labelled, speed);
   if (search->table_theta > 0)

@@ -83,7 +83,7 @@ static bool has_cover(const kz_prepared *r) {
   for (int64_t a = 1; a <= kz_dynamics_count(r->dynamics); a++) {
     kz_attractor attractor;
     kz_dynamics_attractor(r->dynamics, a, &attractor);
-    if (attractor.period == 0 && (!kz_is_running(&attractor) || kz_dynamics_is_averaged(r->dynamics, a))) return true;
+    if (attractor.period == 0 && (!kz_is_running(&attractor) || attractor.averaged)) return true;
   }
   return false;
 }
@@ -102,7 +102,7 @@ static kz_status search_frame(kz_prepared *r, const kz_frame *frame) {
   r->dynamics = kz_dynamics_create(&r->scene.parameters.pendulum, &r->scene.numerics, r->scene.basin->max_period);
   r->search.max_velocity = kz_dynamics_max_velocity(r->dynamics, &r->search.window);
   if (kz_prepared_moves(r) && frame->atlas) {
-    kz_dynamics_coarse_regions(r->dynamics, r->search.max_velocity);
+    kz_dynamics_regions(r->dynamics, 0, r->search.max_velocity);
     KZ_TRY(kz_prepared_take_listed(r, frame));
     kz_regions_grow(r->dynamics, CELLS, r->search.max_velocity);
   } else {
@@ -157,15 +157,15 @@ bool kz_prepared_misses(const kz_prepared *r) {
 
 bool kz_prepared_discover(kz_prepared *r) {
   const int64_t known = kz_dynamics_count(r->dynamics);
-  KZ_AUTOFREE double *found = kz_calloc((size_t)kz_dynamics_cycle_size(r->dynamics), sizeof *found);
-  KZ_AUTOFREE double *covered = kz_calloc((size_t)kz_dynamics_chaos_size(), sizeof *covered);
+  KZ_AUTOFREE double *found = kz_calloc((size_t)kz_dynamics_find_size(r->dynamics, KZ_FIND_CYCLE), sizeof *found);
+  KZ_AUTOFREE double *covered = kz_calloc((size_t)kz_dynamics_find_size(r->dynamics, KZ_FIND_CHAOS), sizeof *covered);
   while ((int)found[0] < r->n_unsettled) {
-    kz_dynamics_find_cycle(r->dynamics, r->n_unsettled, r->unsettled, CLOSENESS, found);
-    kz_dynamics_adopt(r->dynamics, found + 1);
+    kz_dynamics_find(r->dynamics, KZ_FIND_CYCLE, r->n_unsettled, r->unsettled, CLOSENESS, found);
+    kz_dynamics_adopt(r->dynamics, found);
   }
   if (kz_dynamics_count(r->dynamics) == known && r->n_unsettled == KZ_MOST_UNSETTLED) {
-    kz_dynamics_find_running(r->dynamics, r->n_unsettled, r->unsettled, r->periods, covered);
-    if (covered[0] == 0) kz_dynamics_find_chaos(r->dynamics, r->unsettled, covered);
+    kz_dynamics_find(r->dynamics, KZ_FIND_RUNNING, r->n_unsettled, r->unsettled, (double)r->periods, covered);
+    if (covered[1] == 0) kz_dynamics_find(r->dynamics, KZ_FIND_CHAOS, 1, r->unsettled, 0, covered);
     kz_dynamics_adopt(r->dynamics, covered);
   }
   r->ended = r->left = r->n_unsettled = 0;
@@ -219,7 +219,7 @@ kz_status kz_prepared_move(kz_prepared *r, const kz_scene *scene, const kz_frame
   const bool far =
       faster || kz_pendulums_parted(&r->grown, pendulum) > REGROWN || damped_apart(&r->grown, pendulum) > REDAMPED;
   if (lost > 0 || far || ++r->age >= OLDEST) {
-    kz_dynamics_fine_regions(moved, MOVING_CELLS, r->search.max_velocity);
+    kz_dynamics_regions(moved, MOVING_CELLS, r->search.max_velocity);
     prepared_learn(r);
     r->grown = *pendulum;
     r->age = 0;

@@ -29,16 +29,15 @@ static bool on_the_way(const void *context, double value, kz_pendulum *pendulum)
 
 /* The cycle of `there` in which one of the point `from` arrives; -1 = none. */
 static int8_t classes_carry(const step *s, const kz_attractor *cycle, const kz_measured_point *there) {
-  const kz_path path = {.pendulum = on_the_way, .context = s, .maps = s->maps};
-  kz_attractor point = *cycle;
+  const kz_path path = {.pendulum = on_the_way, .context = s, .to = 1, .maps = s->maps};
+  kz_sweep_walk walk;
   kz_pendulum pendulum;
-  int32_t kind;
   bool possible = false;
   for (int64_t i = 0; i < there->count; i++) possible = possible || kz_branch_alike(there->attractor + i, cycle);
   if (!possible || !kz_points_pendulum(s->points, s->to, s->to, 0, &pendulum)) return -1;
-  if (!(kz_walk(&path, 0, 1, &point, &kind) == 1)) return -1;
-  for (int64_t i = 0; i < there->count; i++)
-    if (there->attractor[i].period > 0 && kz_branch_same(s->maps, &pendulum, there->attractor + i, &point))
+  kz_sweep_follow(&path, 0, cycle, 0, &walk);
+  for (int64_t i = 0; i < there->count && walk.piece->reached == 1; i++)
+    if (there->attractor[i].period > 0 && kz_branch_same(s->maps, &pendulum, there->attractor + i, &walk.piece->point))
       return (int8_t)i;
   return -1;
 }

@@ -71,7 +71,7 @@ static kz_status find_attractor(const kz_model *model, kz_state state, double fa
   kz_attractor row;
   KZ_AUTOFREE_BY(kz_dynamics_freed)
   kz_dynamics *dynamics = kz_dynamics_create(&model->pendulum, &model->numerics, LONGEST_CYCLE);
-  kz_dynamics_coarse_regions(dynamics, kz_dynamics_max_velocity(dynamics, &window));
+  kz_dynamics_regions(dynamics, 0, kz_dynamics_max_velocity(dynamics, &window));
   KZ_TRY(kz_discover(NULL, dynamics, 0, (int64_t)periods, 1, start, &label));
   if (label <= 0) return KZ_OK;
   kz_dynamics_attractor(dynamics, label, &row);

@@ -51,10 +51,8 @@ static kz_status walk_tile(void *context, int64_t tile, void *record) {
   const walking *w = context;
   const task *t = w->tasks + tile;
   const kz_sweep_node *node = w->branches->nodes + t->node;
-  const kz_sweep_plan *plan = w->scene->sweep;
-  const kz_path path = kz_sweep_path(w->scene, w->branches->maps);
-  kz_sweep_follow(&path, kz_sweep_value(plan, node->value), kz_sweep_value(plan, branches_aim(w, t)), plan->max_period,
-                  &node->entry.point, node->step, record);
+  const kz_path path = kz_sweep_path(w->scene, node->value, branches_aim(w, t), w->branches->maps);
+  kz_sweep_follow(&path, w->scene->sweep->max_period, &node->entry.point, node->step, record);
   return KZ_OK;
 }
 
@@ -287,7 +285,6 @@ static void list_branches(kz_sweep_branches *b) {
 
 /* The births of running states, where nothing oscillates. */
 static void locate_births(const kz_scene *scene, kz_sweep_branches *b) {
-  const kz_path path = kz_sweep_path(scene, b->maps);
   for (int64_t i = 0; i < b->n_nodes; i++) {
     kz_sweep_node *node = b->nodes + i;
     for (int forward = 0; forward < 2; forward++) {
@@ -295,8 +292,8 @@ static void locate_births(const kz_scene *scene, kz_sweep_branches *b) {
       if (!kz_is_running(&node->entry.point) || is_known(node, forward) || there < 0 ||
           there >= scene->sweep->values.count)
         continue;
-      const double birth = kz_running_birth(&path, kz_sweep_value(scene->sweep, node->value),
-                                            kz_sweep_value(scene->sweep, there), node->entry.point.winding);
+      const kz_path path = kz_sweep_path(scene, node->value, there, b->maps);
+      const double birth = kz_running_birth(&path, node->entry.point.winding);
       if (!isnan(birth)) set_end(node, forward, birth, KZ_END_HOMOCLINIC);
     }
   }

@@ -8,8 +8,9 @@ static bool pendulum_of_scene(const void *context, double value, kz_pendulum *pe
   return kz_sweep_pendulum(context, value, pendulum);
 }
 
-kz_path kz_sweep_path(const kz_scene *scene, kz_fine_maps *maps) {
-  return (kz_path){pendulum_of_scene, scene, maps};
+kz_path kz_sweep_path(const kz_scene *scene, int64_t from, int64_t to, kz_fine_maps *maps) {
+  return (kz_path){pendulum_of_scene, scene, kz_sweep_value(scene->sweep, from), kz_sweep_value(scene->sweep, to),
+                   maps};
 }
 
 bool kz_branch_alike(const kz_attractor *a, const kz_attractor *b) {

@@ -34,7 +34,8 @@ static int running_runs(const kz_path *path, double value, int sign) {
   return fabs(p.torque) >= fabs(p.k) ? sign * p.torque > 0 : running_passes(&p, sign);
 }
 
-double kz_running_birth(const kz_path *path, double with, double without, int32_t winding) {
+double kz_running_birth(const kz_path *path, int32_t winding) {
+  double with = path->from, without = path->to;
   if (running_runs(path, with, winding) != 1 || running_runs(path, without, winding) != 0) return NAN;
   for (int i = 0; i < HALVINGS; i++) {
     const double middle = with + (without - with) / 2;

@@ -21,16 +21,18 @@ enum {
   KZ_END_HOMOCLINIC
 };
 
-/* Gives the pendulum at a value of one parameter; false if there is none. A walk goes along such a path. */
+/* Gives the pendulum at a value of one parameter; false if there is none. */
 typedef bool (*kz_pendulum_fn)(const void *context, double value, kz_pendulum *pendulum);
+/* The way of a walk, from one value to another. */
 typedef struct {
   kz_pendulum_fn pendulum;
   const void *context;
-  kz_fine_maps *maps; /* where those of both ends of a walk are kept; NULL = nowhere */
+  double from, to;
+  kz_fine_maps *maps; /* where those of both ends are kept; NULL = nowhere */
 } kz_path;
 
-/* The path of the sweep itself; `scene` and `maps` must outlive it. */
-kz_path kz_sweep_path(const kz_scene *scene, kz_fine_maps *maps);
+/* The path of the sweep between two of its values; `scene` and `maps` must outlive it. */
+kz_path kz_sweep_path(const kz_scene *scene, int64_t from, int64_t to, kz_fine_maps *maps);
 
 /* A piece of a branch between two values: all along it the cycle attracts, or nowhere. It begins at the cycle that is
  * followed, or where something happens; it ends at one of the values, or where something happens (KZ_END_...). */
@@ -49,18 +51,15 @@ typedef struct {
   kz_sweep_piece piece[KZ_SWEEP_PIECES];
 } kz_sweep_walk;
 
-/* Follows a cycle from one value towards another one by pseudo-arclength, attracting or not, through folds, and all
- * cycles of up to max_period periods that branch off on the way. The first piece is that from the cycle itself. Ends
- * are right to rounding. step: the first one, in distances of the values; 0 = not known. */
-void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_attractor *point,
-                     double step, kz_sweep_walk *found);
-/* Carries a cycle from the value `from` towards `to`. Returns `to`, or where the cycle ends or its stability changes,
- * and how (end_kind). In and out: *point, the cycle at that value. */
-double kz_walk(const kz_path *path, double from, double to, kz_attractor *point, int32_t *end_kind);
+/* Follows a cycle along a path by pseudo-arclength, attracting or not, through folds, and all cycles of up to
+ * max_period periods that branch off on the way. The first piece is that from the cycle itself. Ends are right to
+ * rounding. step: the first one, in distances of the values; 0 = not known. */
+void kz_sweep_follow(const kz_path *path, int64_t max_period, const kz_attractor *point, double step,
+                     kz_sweep_walk *found);
 
-/* The value between two, to rounding, at which a running state of this winding is born that the pendulum at `with` has
- * and the one at `without` has not; NaN if that is not so, or if anything but a constant torque drives them. */
-double kz_running_birth(const kz_path *path, double with, double without, int32_t winding);
+/* The value of a path, to rounding, at which a running state of this winding is born that the pendulum at its begin has
+ * and the one at its end has not; NaN if that is not so, or if anything but a constant torque drives them. */
+double kz_running_birth(const kz_path *path, int32_t winding);
 
 /* A cycle with a strobe point, or of a motion that never closes its means; its image. */
 kz_attractor kz_branch_point_image(const kz_pendulum *pendulum, kz_attractor point);

@@ -13,39 +13,34 @@ static const double NEAR = 0.3;
 /* A cycle is followed so near to the value where damping ends. */
 static const double STUCK = 1e-6;
 
-/* The way from one value to another: a place is 0 at the first, 1 at the second. */
+/* A walk: its path, on which a place is 0 at the first value and 1 at the second, its longest period, and its findings.
+ */
 typedef struct {
   const kz_path *path;
-  double from, to;
-} way;
-
-/* A walk: where it leads, up to which period, and its findings. */
-typedef struct {
-  const way *way;
   kz_plane plane, rough; /* rough: with half of the steps, for the way; what is kept is solved on the other one */
   int64_t max_period;
   kz_sweep_walk *found;
 } walking;
 
-static double value_at(const way *w, double place) {
-  return place == 1 ? w->to : w->from + place * (w->to - w->from);
+static double value_at(const kz_path *path, double place) {
+  return place == 1 ? path->to : path->from + place * (path->to - path->from);
 }
 
 static bool pendulum_at(const void *context, const double place[2], kz_pendulum *pendulum) {
-  const way *w = context;
-  return w->path->pendulum(w->path->context, value_at(w, place[0]), pendulum);
+  const kz_path *path = context;
+  return path->pendulum(path->context, value_at(path, place[0]), pendulum);
 }
 
-/* The plane of the way; false where its first value has no pendulum. */
-static bool plane_of(const way *w, kz_plane *plane) {
+/* The plane of a path; false where its first value has no pendulum. */
+static bool plane_of(const kz_path *path, kz_plane *plane) {
   kz_pendulum pendulum, last;
   kz_numerics fine;
-  if (!pendulum_at(w, (double[]){0, 0}, &pendulum)) return false;
+  if (!pendulum_at(path, (double[]){0, 0}, &pendulum)) return false;
   int32_t symmetry = kz_pairing_symmetry(&pendulum);
-  if (pendulum_at(w, (double[]){1, 0}, &last) && kz_pairing_symmetry(&last) != symmetry) symmetry = 0;
+  if (pendulum_at(path, (double[]){1, 0}, &last) && kz_pairing_symmetry(&last) != symmetry) symmetry = 0;
   kz_numerics_fine(&pendulum, &fine);
   *plane = (kz_plane){.pendulum = pendulum_at,
-                      .context = w,
+                      .context = path,
                       .low = {0, -1},
                       .high = {1, 1},
                       .steps = 2 * fine.steps_per_period, /* Newton's method takes half of them */
@@ -86,7 +81,7 @@ static bool walk_describe(const walking *w, const kz_cycle *c, kz_attractor *poi
   kz_pendulum pendulum;
   const double *place = c->place;
   const bool at_end = *place == 0 || *place == 1;
-  if (!pendulum_at(w->way, place, &pendulum)) return false;
+  if (!pendulum_at(w->path, place, &pendulum)) return false;
   const bool halved = c->kind.side < 0 && !c->kind.rest;
   const int points = c->kind.points;
   int n = halved && !c->kind.half ? 2 * points : points;
@@ -101,10 +96,10 @@ static bool walk_describe(const walking *w, const kz_cycle *c, kz_attractor *poi
     state[n][0] = -half[2], state[n][1] = -half[3];
   }
   *point = (kz_attractor){.period = kz_kind_period(&c->kind), .symmetric = is_symmetric(c)};
-  kz_branch_describe(at_end ? w->way->path->maps : NULL, &pendulum, n, state[0], point);
+  kz_branch_describe(at_end ? w->path->maps : NULL, &pendulum, n, state[0], point);
   if (!w->plane.mirrored && !w->plane.half_period && kz_pairing_symmetry(&pendulum)) { /* at this value alone */
     const kz_attractor image = kz_branch_point_image(&pendulum, *point);
-    point->symmetric = kz_branch_same(w->way->path->maps, &pendulum, point, &image);
+    point->symmetric = kz_branch_same(w->path->maps, &pendulum, point, &image);
   }
   return true;
 }
@@ -112,7 +107,7 @@ static bool walk_describe(const walking *w, const kz_cycle *c, kz_attractor *poi
 /* Without damping areas stay, and nothing attracts. */
 static bool is_damped(const walking *w, double place) {
   kz_pendulum pendulum;
-  return pendulum_at(w->way, (double[]){place, 0}, &pendulum) && pendulum.beta > 0;
+  return pendulum_at(w->path, (double[]){place, 0}, &pendulum) && pendulum.beta > 0;
 }
 
 /* The cycle at place 0 or 1, between two rows of a branch. */
@@ -169,7 +164,7 @@ static void follow_child(const walking *w, const kz_cycle *flip, int kind, int d
   if (depth == DEEPEST || !kz_cycle_child(&w->plane, flip, 0, &child, along) ||
       kz_kind_period(&child.kind) > w->max_period)
     return;
-  const kz_sweep_piece piece = {.begin = value_at(w->way, flip->place[0]),
+  const kz_sweep_piece piece = {.begin = value_at(w->path, flip->place[0]),
                                 .begin_kind = kind,
                                 .reached = -1,
                                 .step = FIRST,
@@ -204,7 +199,7 @@ static bool walk_pass(branching *b, const kz_cycle *event, int depth) {
     b->beyond.place[0] = at.place[0];
     return true;
   }
-  b->piece.end = value_at(b->w->way, at.place[0]), b->piece.end_kind = kind,
+  b->piece.end = value_at(b->w->path, at.place[0]), b->piece.end_kind = kind,
   b->piece.attracts = b->sign[0] && b->sign[1];
   if (!walk_describe(b->w, event, &b->piece.point)) b->piece.point.period = kz_kind_period(&b->c->kind);
   add_piece(b);
@@ -217,16 +212,15 @@ static bool walk_pass(branching *b, const kz_cycle *event, int depth) {
 
 /* Ends the last piece, between the last two rows: at a value that the branch reaches, or where it is lost. */
 static void walk_finish(branching *b, const kz_cycle *former, const kz_cycle *last, bool reaches) {
-  const way *w = b->w->way;
   const double at = last->place[0], place = at > 1 ? 1 : 0;
   kz_cycle there;
   b->piece.attracts = b->sign[0] && b->sign[1];
   if (reaches && solve_at(b->w, former, last, place, &there) && walk_describe(b->w, &there, &b->piece.point))
     b->piece.reached = place == 1;
   else if (b->piece.attracts && fabs(1 - at) < STUCK && !is_damped(b->w, 1)) /* complex multipliers at 1 */
-    b->piece.end = w->to, b->piece.end_kind = KZ_END_NEIMARK_SACKER;
+    b->piece.end = b->w->path->to, b->piece.end_kind = KZ_END_NEIMARK_SACKER;
   else
-    b->piece.end = value_at(w, fmin(fmax(at, 0), 1)), b->piece.end_kind = KZ_END_NOT_LOCATED;
+    b->piece.end = value_at(b->w->path, fmin(fmax(at, 0), 1)), b->piece.end_kind = KZ_END_NOT_LOCATED;
   if (b->piece.reached >= 0 || walk_describe(b->w, b->c, &b->piece.point)) add_piece(b);
 }
 
@@ -239,7 +233,7 @@ static void walk_follow(const walking *w, const kz_cycle *c, const double along[
   kz_cycle_continue(&w->rough, c, &to, row, event, &end);
   b.piece.step = end.step;
   if (end.rows == 0) { /* nothing is known beyond its beginning */
-    b.piece.end = value_at(w->way, c->place[0]), b.piece.end_kind = KZ_END_NOT_LOCATED;
+    b.piece.end = value_at(w->path, c->place[0]), b.piece.end_kind = KZ_END_NOT_LOCATED;
     if (b.piece.from_start) add_piece(&b);
     return;
   }
@@ -253,32 +247,20 @@ static void walk_follow(const walking *w, const kz_cycle *c, const double along[
     walk_finish(&b, former, last, end.ending == KZ_TRACE_LEFT && end.rows > 1);
 }
 
-void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_attractor *point,
-                     double step, kz_sweep_walk *found) {
-  const way w = {path, from, to};
-  walking walk = {.way = &w, .max_period = max_period, .found = found};
+void kz_sweep_follow(const kz_path *path, int64_t max_period, const kz_attractor *point, double step,
+                     kz_sweep_walk *found) {
+  walking walk = {.path = path, .max_period = max_period, .found = found};
   kz_cycle c;
   found->count = 0;
-  if (plane_of(&w, &walk.plane) && cycle_of(&walk.plane, point, 0, &c)) {
+  if (plane_of(path, &walk.plane) && cycle_of(&walk.plane, point, 0, &c)) {
     const kz_sweep_piece piece = {.from_start = 1, .reached = -1, .step = step > 0 ? step : FIRST};
     walk.rough = walk.plane;
     walk.rough.steps /= 2;
     walk_follow(&walk, &c, (double[]){1, 0}, piece, 0);
   }
   if (found->count == 0)
-    found->piece[found->count++] =
-        (kz_sweep_piece){.from_start = 1, .reached = -1, .end = from, .end_kind = KZ_END_NOT_LOCATED, .point = *point};
-}
-
-double kz_walk(const kz_path *path, double from, double to, kz_attractor *point, int32_t *end_kind) {
-  kz_sweep_walk found;
-  *end_kind = KZ_END_OF_RANGE;
-  if (from == to) return to;
-  kz_sweep_follow(path, from, to, 0, point, 0, &found);
-  const kz_sweep_piece *first = found.piece;
-  *point = first->point;
-  *end_kind = first->end_kind;
-  return first->reached == 1 ? to : first->reached == 0 ? from : first->end;
+    found->piece[found->count++] = (kz_sweep_piece){
+        .from_start = 1, .reached = -1, .end = path->from, .end_kind = KZ_END_NOT_LOCATED, .point = *point};
 }
 
 static bool same_pendulum(const void *context, double value, kz_pendulum *pendulum) {
@@ -288,8 +270,7 @@ static bool same_pendulum(const void *context, double value, kz_pendulum *pendul
 }
 
 kz_attractor kz_branch_point_image(const kz_pendulum *pendulum, kz_attractor point) {
-  const kz_path path = {same_pendulum, pendulum};
-  const way here = {&path, 0, 1};
+  const kz_path here = {.pendulum = same_pendulum, .context = pendulum, .to = 1};
   double state[4] = {point.theta, point.velocity};
   kz_plane plane;
   point.winding = -point.winding;

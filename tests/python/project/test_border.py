@@ -12,7 +12,7 @@ FORTRAN = sorted(SOURCES.rglob("*.f90"))
 
 # Kinds of numbers by their names in C and in gfortran.
 KINDS = {"int32_t": "int", "int64_t": "long", "uint64_t": "long", "uint8_t": "signed char", "int16_t": "short",
-         "__float128": "float128", "kz_status": "int", "kz_stepper": "int", "kz_precision": "int"}
+         "__float128": "float128", "kz_status": "int", "kz_stepper": "int", "kz_precision": "int", "kz_find": "int"}
 
 
 def without_comments(text):

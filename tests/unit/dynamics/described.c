@@ -122,8 +122,8 @@ static void described_carry(kz_dynamics *dynamics, double end[2]) {
 static double described_strayed(kz_dynamics *moved, const kz_pendulum *p, const kz_numerics *numerics) {
   kz_dynamics *anew = kz_dynamics_create(p, numerics, 4);
   double end[2], known[2];
-  kz_dynamics_coarse_regions(moved, 3);
-  kz_dynamics_coarse_regions(anew, 3);
+  kz_dynamics_regions(moved, 0, 3);
+  kz_dynamics_regions(anew, 0, 3);
   described_carry(moved, end);
   described_carry(anew, known);
   kz_dynamics_free(anew);
@@ -138,7 +138,7 @@ static double described_drag(int steps, kz_pendulum (*curve)(double share), doub
   double most = 0;
   kept.series = kz_kept_series_create();
   kz_dynamics *moved = kz_dynamics_create(&p, &kept, 4);
-  kz_dynamics_coarse_regions(moved, 3);
+  kz_dynamics_regions(moved, 0, 3);
   *interpolated = 0;
   for (int i = 1; i <= steps; i++) {
     int64_t lost;

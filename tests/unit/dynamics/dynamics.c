@@ -62,7 +62,7 @@ TEST(test_interpolation) {
       int64_t periods[N];
       kz_dynamics_starts(&WINDOW, 3, N, x);
       memcpy(y, x, sizeof y);
-      kz_dynamics_coarse_regions(d, 3);
+      kz_dynamics_regions(d, 0, 3);
       with_table(d, (fine ? 400 : 200) + 1, 3);
       kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 1, x, label, periods, NULL);
       kz_dynamics_follow(d, points == 2 ? KZ_FOLLOW_LINEAR : KZ_FOLLOW_QUINTIC, N, 1, y, label, periods, NULL);
@@ -91,7 +91,7 @@ TEST(test_regions_know_no_order) {
   kz_dynamics_update(a);
   kz_dynamics_pack(a, size, packed);
   kz_dynamics_unpack(b, size, packed);
-  kz_dynamics_fine_regions(b, CELLS, 3);
+  kz_dynamics_regions(b, CELLS, 3);
   assert_true(kz_dynamics_trapped_share(a) == kz_dynamics_trapped_share(b));
   kz_dynamics_starts(&WINDOW, 3, N, x);
   kz_dynamics_follow(a, KZ_FOLLOW_DIRECT, N, 1, x, label_a, periods, NULL);
@@ -123,9 +123,9 @@ TEST(test_chaos) {
   int64_t periods[N];
   kz_attractor row;
   kz_dynamics_starts(&WINDOW, 1, N, x);
-  kz_dynamics_coarse_regions(d, TOP);
-  double *found = calloc((size_t)kz_dynamics_chaos_size(), sizeof *found);
-  kz_dynamics_find_chaos(d, x, found);
+  kz_dynamics_regions(d, 0, TOP);
+  double *found = calloc((size_t)kz_dynamics_find_size(d, KZ_FIND_CHAOS), sizeof *found);
+  kz_dynamics_find(d, KZ_FIND_CHAOS, 1, x, 0, found);
   assert_int_equal(kz_dynamics_count(d), 0);
   kz_dynamics_adopt(d, found);
   free(found);
@@ -160,7 +160,7 @@ TEST(test_sparse_looks) {
   double x[2][2 * N];
   int32_t label[2][N];
   int64_t periods[2][N], later = 0, settled = 0;
-  kz_dynamics_coarse_regions(d, 3);
+  kz_dynamics_regions(d, 0, 3);
   kz_dynamics_starts(&WINDOW, 1, N, x[0]);
   kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 1000, x[0], label[0], periods[0], NULL);
   for (int first = 0; first < N; first += 64) find_cycles(d, 64, x[0] + 2 * first, 0.02);
@@ -193,7 +193,7 @@ TEST(test_single_precision) {
     double x[3][2 * N], farthest = 0;
     int32_t label[N];
     int64_t periods[N];
-    kz_dynamics_coarse_regions(d, 3);
+    kz_dynamics_regions(d, 0, 3);
     for (int way = 0; way < 3; way++) {
       kz_dynamics_starts(&WINDOW, 5, N, x[way]);
       for (int i = 0; way == 2 && i < 2 * N; i++) x[2][i] = -x[2][i];
@@ -217,9 +217,9 @@ TEST(test_quasi_periodic_motions_are_no_chaos) {
   if (PART > 1) return; /* test_chaos shows the sanitizers the same code */
   for (int i = 0; i < 2; i++) {
     kz_dynamics *d = kz_dynamics_create(&pendulum, fine_numerics(), 48);
-    double x[2] = {0.5, 4}, *found = calloc((size_t)kz_dynamics_chaos_size(), sizeof *found);
-    kz_dynamics_coarse_regions(d, tops[i]);
-    kz_dynamics_find_chaos(d, x, found);
+    double x[2] = {0.5, 4}, *found = calloc((size_t)kz_dynamics_find_size(d, KZ_FIND_CHAOS), sizeof *found);
+    kz_dynamics_regions(d, 0, tops[i]);
+    kz_dynamics_find(d, KZ_FIND_CHAOS, 1, x, 0, found);
     kz_dynamics_adopt(d, found);
     kz_dynamics_update(d);
     assert_int_equal(kz_dynamics_count(d), 0);

@@ -126,7 +126,7 @@ TEST(test_regions_are_right) {
   for (int c = 0; c < (PART > 1 ? 1 : 3); c++) {
     kz_dynamics *d = explored_pendulum(pendulums + c, fine_numerics(), 1, 0, 3.0),
                 *plain = explored_pendulum(pendulums + c, fine_numerics(), 1, 0, 3.0);
-    kz_dynamics_fine_regions(d, PART > 1 ? 200 : 400, 3.0);
+    kz_dynamics_regions(d, PART > 1 ? 200 : 400, 3.0);
     int inside = 0;
     kz_dynamics_starts(&WINDOW, 9, N, x);
     memcpy(y, x, sizeof y);
@@ -197,7 +197,7 @@ TEST(test_quads_decide_after_pairs_what_they_decide_alone) {
   int decided = 0;
   if (PART > 1) return; /* other tests show the sanitizers the same code */
   kz_dynamics *d = explored_dynamics(0.46, 1, 3);
-  kz_dynamics_fine_regions(d, 400, 3);
+  kz_dynamics_regions(d, 400, 3);
   kz_dynamics_starts(&WINDOW, 3, N, x);
   for (int i = 0; i < N; i++) start[i] = (kz_start){.theta = {x[2 * i] * M_PI, 0}, .velocity = {x[2 * i + 1], 0}};
   for (kz_precision level = KZ_LEVEL_DOUBLE; level <= KZ_LEVEL_PAIRS_28; level++) {
@@ -301,7 +301,7 @@ TEST(test_turns_are_those_of_the_angle) {
   int counted = 0, turned = 0;
   if (PART > 1) return; /* other tests show the sanitizers the same code */
   kz_dynamics *d = explored_dynamics(0.3, 1, 3);
-  kz_dynamics_fine_regions(d, 400, 3);
+  kz_dynamics_regions(d, 400, 3);
   kz_flow *flow = kz_flow_create(&(kz_pendulum){1.0 / 121, 1.0 / 55, 0.3}, fine_numerics());
   kz_dynamics_starts(&WINDOW, 3, N, x);
   for (int i = 0; i < N; i++) { /* some are given a turn too far */

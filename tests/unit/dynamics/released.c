@@ -42,7 +42,7 @@ static void released_advance(kz_arbitrary *orbit, int64_t periods, kz_jet *jet) 
 TEST(many_digits_agree_with_quads) {
   const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 48};
   kz_dynamics *d = kz_dynamics_create(&pendulum, &numerics, 12);
-  kz_dynamics_coarse_regions(d, 3);
+  kz_dynamics_regions(d, 0, 3);
   for (int i = 0; i < RELEASES; i++) {
     kz_start start[STARTS] = {
         {.theta = {0.7}, .velocity = {1.42}}, {.theta = {-2.5}, .velocity = {-1}}, {.theta = {3.1}}};

@@ -71,7 +71,7 @@ TEST(unsettled_items_lead_to_attractors) {
     start[2 * i] = M_PI * cos(i);
     start[2 * i + 1] = 0.5 * sin(3 * i);
   }
-  kz_dynamics_coarse_regions(dynamics, 3);
+  kz_dynamics_regions(dynamics, 0, 3);
   const kz_labeller labeller = kz_pair_labeller(start, 2000, KZ_BY_STATES, dynamics);
   assert_int_equal(kz_label_items(&labeller, 1, STARTS, NULL, label), KZ_OK);
   for (int i = 0; i < STARTS; i++) assert_true(label[i].label == 0 && label[i].periods == 2000);
