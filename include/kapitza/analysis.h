@@ -3,11 +3,6 @@
  * Angles in rad from the DOWN position, times in drive radians; a drive period is 2 pi. Nothing here is collective. */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include "kapitza/common.h"
 #include "kapitza/model.h"
 
 /* ---- spectra of orbits ---- */

@@ -1,7 +1,6 @@
 /* app: what the library takes of it: scenes as text, and runs without ranks (C; layer 4). */
 #pragma once
 
-#include "kapitza/store.h"
 #include "kapitza/study.h"
 
 /* Reads the pendulum, numerics and basin of the text of a scene, with the default window where it has no basin. change:

@@ -4,9 +4,13 @@
  * up with KZ_TRY. Only app/main.c prints the message and ends the program. */
 #pragma once
 
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* Status of a call, with the value of the program's exit status. */
 typedef enum {

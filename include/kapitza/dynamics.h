@@ -5,9 +5,6 @@
  * are pairs (half-turns, velocity): theta/pi in [-1, 1], and rad per drive radian. */
 #pragma once
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "kapitza/kernel.h"
 
 typedef struct kz_dynamics kz_dynamics;

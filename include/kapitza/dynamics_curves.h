@@ -5,9 +5,6 @@
  * A place is a pair of numbers, each in units of a side of the rectangle. Nothing here is collective. */
 #pragma once
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "kapitza/model.h"
 
 /* Gives the pendulum of a place; false if there is none. */

@@ -1,9 +1,6 @@
 /* dynamics: starts that are proved to end on an attractor (C; layer 1). */
 #pragma once
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "kapitza/kernel_enclosure.h"
 
 /* Proofs of where starts end under the true flow, by the enclosures of kernel_enclosure.h (docs/explanation/proof.md).

@@ -4,8 +4,6 @@
  * period starts at t = 0 (pivot at its top). Integrators use half-turns (theta/pi), so that wrapping is exact. */
 #pragma once
 
-#include <stdint.h>
-
 #include "kapitza/model.h"
 
 /* A cache of series of the processed splitting, which serve the same pendulum again, a pendulum beside it, and any

@@ -1,8 +1,6 @@
 /* Sets of states through a drive period, with bounds on every error (C, part of the kernel). */
 #pragma once
 
-#include <stdint.h>
-
 #include "kapitza/model.h"
 
 /* Precisions of enclosures, sets of states that are proved to contain the true motion of exactly the given pendulum:

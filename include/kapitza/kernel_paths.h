@@ -6,9 +6,6 @@
  * States are (theta, velocity, p1, p2): rad, rad per drive radian, and momenta; theta is not wrapped. */
 #pragma once
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "kapitza/model.h"
 
 /* force [n][3] = a(t), b(t) and torque(t) at t = 2 pi (i + share) / n. */

@@ -7,8 +7,6 @@
  * are 0, the pendulum is {k, beta, m} and the equation is BSG Eq. 2, or BUT Eq. 9 in drive time. */
 #pragma once
 
-#include <stdint.h>
-
 #include "kapitza/common.h"
 
 #define KZ_HARMONICS 24

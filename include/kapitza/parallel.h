@@ -4,11 +4,6 @@
  * size. Rank 0 hands out tiles in batches. The records do not depend on which rank made them. */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
 #include "kapitza/common.h"
 
 typedef struct kz_ranks kz_ranks;

@@ -4,11 +4,6 @@
  * The file is written as PATH.part and renamed to PATH when it is complete. */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-
 #include "kapitza/common.h"
 
 typedef struct kz_store kz_store;

@@ -2,18 +2,10 @@
  * go to the store and, for people, to a summary. */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
 #include "kapitza/analysis.h"
-#include "kapitza/kernel.h"
 #include "kapitza/parallel.h"
 #include "kapitza/powers.h"
-#include "kapitza/store.h"
 #include "kapitza/study_axis.h"
-#include "kapitza/study_pendulum.h"
 
 /* The labels of the settings that a trade-off compares, joined by '|'. */
 const char *kz_tradeoff_words(void);

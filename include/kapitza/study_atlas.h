@@ -1,7 +1,6 @@
 /* study: the motions of the points of an atlas that a result file has (C; layer 3). No MPI. */
 #pragma once
 
-#include "kapitza/store.h"
 #include "kapitza/study.h"
 
 typedef struct kz_atlas kz_atlas;

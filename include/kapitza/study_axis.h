@@ -1,9 +1,6 @@
 /* The axes of plans: cells, values, windows. */
 #pragma once
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "kapitza/kernel.h"
 #include "kapitza/study_pendulum.h"
 

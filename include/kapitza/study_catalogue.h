@@ -1,8 +1,6 @@
 /* study: attractors as users see them (C; layer 3). */
 #pragma once
 
-#include <stdint.h>
-
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 

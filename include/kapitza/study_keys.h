@@ -2,9 +2,6 @@
 #pragma once
 
 #include <float.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 
 #include "kapitza/study.h"
 

@@ -1,9 +1,6 @@
 /* study: frames of basins on request; the engine keeps what the next frame can use (C; layer 3). No MPI, no files. */
 #pragma once
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "kapitza/study_where.h"
 
 /* The engine: maps, attractors and trapping regions of the pendulums of the last requests. */

@@ -1,10 +1,6 @@
 /* study: the mapping `pendulum` of a scene as written, and the pendulum and its drive that follow from it. */
 #pragma once
 
-#include <stdbool.h>
-#include <stdint.h>
-#include <stdio.h>
-
 #include "kapitza/model.h"
 #include "kapitza/store.h"
 

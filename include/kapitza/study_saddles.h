@@ -1,9 +1,6 @@
 /* study: all cycles of a pendulum on request (C; layer 3). No MPI, no files. */
 #pragma once
 
-#include <stdint.h>
-
-#include "kapitza/dynamics.h"
 #include "kapitza/study_catalogue.h"
 
 /* All cycles of up to max_period periods, attracting or not, with a point in the window, as the study `saddles` finds

@@ -1,8 +1,6 @@
 /* study: where starts end, and where basins meet between them (C; layer 3). No MPI, no files. */
 #pragma once
 
-#include <stdint.h>
-
 #include "kapitza/study_catalogue.h"
 #include "kapitza/dynamics_labels.h"
 

@@ -1,9 +1,5 @@
-#include <complex.h>
-#include <math.h>
-#include <string.h>
 
 #include "curves.h"
-#include "kapitza/analysis.h"
 
 /* Returns m for low <= k <= high, else NaN. */
 static double value_within(double k, double low, double high, double m) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <complex.h>
-#include <stdbool.h>
 
 #include "kapitza/analysis.h"
 

@@ -1,7 +1,6 @@
 #include "curves.h"
 
 #include <gsl/gsl_poly.h>
-#include <math.h>
 
 static double complex diagonal_entry(double k, double beta, double w) {
   return k - w * w + I * beta * w;

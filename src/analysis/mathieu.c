@@ -3,7 +3,6 @@
 #include <float.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sf_mathieu.h>
-#include <math.h>
 
 typedef int (*value_fn)(int order, double q, gsl_sf_result *result);
 

@@ -1,7 +1,5 @@
 /* Names of attractors. */
 #include <inttypes.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "kapitza/analysis.h"
 

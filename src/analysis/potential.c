@@ -1,9 +1,7 @@
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_poly.h>
-#include <math.h>
 
 #include "kapitza/analysis.h"
-#include "kapitza/model.h"
 
 /* The energy of the slow equation (model.h), the integral of pull sin(theta), is, with u = 1 - k cos(theta), k (1 -
  * cos) + m^2/(2 k^2) (G(u) - G(1 - k)), G(u) = ln(u^2 + beta^2)/2 - u + beta atan(u/beta). */

@@ -4,7 +4,6 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_min.h>
 #include <gsl/gsl_roots.h>
-#include <math.h>
 
 enum { MOST_STEPS = 200 };
 

@@ -1,7 +1,6 @@
 /* Lines of an orbit, and from them the dominant line, the period, the symmetry. A closed orbit, sampled over exactly
  * its period, needs no window. */
 #include <fftw3.h>
-#include <math.h>
 
 #include "kapitza/analysis.h"
 

@@ -2,7 +2,6 @@
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_statistics_uint.h>
-#include <math.h>
 
 #include "kapitza/analysis.h"
 

@@ -1,9 +1,5 @@
 #include "curves.h"
 
-#include <math.h>
-#include <stdbool.h>
-
-#include "kapitza/analysis.h"
 #include "kapitza/kernel.h"
 
 enum { PROBES = 64, ROUNDS = 4 };

@@ -1,14 +1,9 @@
 /* Edges of the zones of stability under any wave form, as k over m: Hill's determinant, and Meissner's closed form. */
-#include <complex.h>
 #include <gsl/gsl_complex_math.h>
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_sort_vector.h>
-#include <math.h>
-#include <stdlib.h>
 
 #include "curves.h"
-#include "kapitza/analysis.h"
-#include "kapitza/model.h"
 
 /* Curves 1 .. 5: true for half harmonics (multiplier -1); number of edges of this kind below; k at m = 0. */
 static const struct {

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "app.h"
-#include "kapitza/common.h"
 
 static struct {
   bool armed;

@@ -1,11 +1,7 @@
 /* app: the command line, what its commands do, and messages for people (C; layer 4). */
 #pragma once
 
-#include <stdbool.h>
-#include <stdio.h>
-
 #include "kapitza/app_instructions.h"
-#include "kapitza/study.h"
 #include "scene/scene.h"
 
 /* The names of these sets, "avx2 fma ...", for the summary and the file; the text depends on the build only. */

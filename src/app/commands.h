@@ -1,8 +1,6 @@
 /* Commands and options of the command line: parsing, help, manual page and completions share these rows. */
 #pragma once
 
-#include <string.h>
-
 #include "app.h"
 
 typedef struct kz_option {

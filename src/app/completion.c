@@ -1,6 +1,4 @@
 /* Completions of shells: each script asks the program for the next words, known from tables of commands and keys. */
-#include <stdlib.h>
-#include <string.h>
 
 #include "commands.h"
 

@@ -1,7 +1,5 @@
 /* Compares a scene's memory with what this node has, and control groups (container, batch system) leave. */
 #include <limits.h>
-#include <math.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "app.h"

@@ -1,6 +1,5 @@
 /* Compiled for the instruction set of the build, as all layers: what the compiler says here holds for all. */
 #include <pthread.h>
-#include <string.h>
 
 #include "app.h"
 

@@ -1,9 +1,5 @@
 #include "json.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 kz_json *kz_json_real(double value) {
   return isfinite(value) ? json_object_new_double_s(value, kz_shortest(value).text) : NULL;
 }

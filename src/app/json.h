@@ -3,7 +3,6 @@
 #pragma once
 
 #include <json-c/json.h>
-#include <stdio.h>
 
 #include "scene/scene.h"
 

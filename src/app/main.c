@@ -1,6 +1,5 @@
 /* The entry, compiled for its processor's first instruction set: checks the CPU before any newer code runs. */
 #include <fcntl.h>
-#include <stdio.h>
 #include <sys/resource.h>
 #include <unistd.h>
 

@@ -1,7 +1,5 @@
 /* The command line, from two tables: commands and options. Help and errors come from the same rows. */
 #include <getopt.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "commands.h"
 

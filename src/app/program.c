@@ -1,7 +1,5 @@
 /* The whole program but its entry: which command is wanted, and that it is carried out. */
 #include <malloc.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "commands.h"
 

@@ -1,12 +1,8 @@
 /* Reports about a scene or about the program: check, keys, --version, warnings, the message at the end. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "app.h"
 #include "json.h"
 #include "kapitza/version.h"
-#include "kapitza/study_basin.h"
 #include "../study/numerics/cells.h"
 
 /* ---- the variables of the result file ---- */

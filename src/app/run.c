@@ -1,8 +1,5 @@
 /* The command run, from the text of the scene to the complete file. All ranks call these functions together. */
 #include <limits.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <time.h>
 

@@ -1,5 +1,4 @@
 /* Names of stages, which logs and checkpoints keep short, in words for people who watch a run. */
-#include <string.h>
 
 #include "app.h"
 

@@ -4,7 +4,6 @@
 
 #include <fenv.h>
 #include <setjmp.h>
-#include <stdlib.h>
 
 enum { MOST_LOCKS = 8, CALLS_BETWEEN_CLOCKS = 32 };
 static const double PAUSE = 0.05; /* s between two questions to the caller */

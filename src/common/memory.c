@@ -1,8 +1,5 @@
 #include "kapitza/common_border.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 static void (*on_failure)(void) = abort;
 
 void kz_memory_on_failure(void (*leave)(void)) {

@@ -1,7 +1,6 @@
 #include "kapitza/common.h"
 
 #include <stdarg.h>
-#include <stdio.h>
 
 /* Message of this thread: another may fail at the same moment. */
 static _Thread_local char message[KZ_MESSAGE_BYTES];

@@ -2,9 +2,7 @@
 
 #include "kapitza/common_border.h"
 
-#include <math.h>
 #include <signal.h>
-#include <stdlib.h>
 #include <time.h>
 
 bool kz_thread_start(pthread_t *thread, size_t stack_bytes, void *(*work)(void *context), void *context) {

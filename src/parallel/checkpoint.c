@@ -1,9 +1,5 @@
 /* The checkpoint, which all ranks open and close together. */
 #include <errno.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "checkpoint.h"

@@ -8,9 +8,6 @@
  * Every checksum is continued from that of the part above it: a slot counts only in its own section of its own run. */
 #pragma once
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "kapitza/parallel.h"
 
 struct kz_checkpoint {

@@ -4,7 +4,6 @@
 #define _GNU_SOURCE /* locks of an open file, not of a process */
 #include <errno.h>
 #include <fcntl.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>

@@ -1,5 +1,4 @@
 /* Delivery of records of varying length to rank 0. */
-#include <string.h>
 
 #include "kapitza/parallel.h"
 

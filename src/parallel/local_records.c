@@ -1,6 +1,4 @@
 /* Records of varying length, which stay on the ranks that made them until they become messages for rank 0. */
-#include <stdlib.h>
-#include <string.h>
 
 #include "watch.h"
 

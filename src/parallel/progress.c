@@ -1,7 +1,6 @@
 /* Progress: a live bar on a terminal, else lines. */
 #include "watch.h"
 
-#include <stdlib.h>
 #include <unistd.h>
 
 static const double BAR_DELAY = 0.5, BAR_PERIOD = 0.2, LINE_PERIOD = 10.0, LINE_PERIOD_ALWAYS = 1.0; /* s */

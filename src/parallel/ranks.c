@@ -3,8 +3,6 @@
 
 #include <mpi.h>
 #include <signal.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "bytes.h"

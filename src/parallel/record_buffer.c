@@ -1,9 +1,6 @@
 /* Buffer of records for rank 0. */
 #include "record_buffer.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 enum { SLOT_HEAD = 16, TAG = 1 };
 static const size_t MESSAGE_BYTES = (size_t)1 << 22;
 

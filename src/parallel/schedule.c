@@ -1,8 +1,5 @@
 #include "schedule.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 #include "kapitza/common.h"
 
 /* Time of a batch, s: much longer than a message, too short to be noticed; and per rank, so that rank 0, which answers

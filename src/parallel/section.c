@@ -1,7 +1,6 @@
 /* Finished records on disk. */
 #include <errno.h>
 #include <fcntl.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "bytes.h"

@@ -1,11 +1,8 @@
 /* A stage: tiles are drawn, done, kept and delivered. */
-#include <stdlib.h>
-#include <string.h>
 
 #include "bytes.h"
 #include "checkpoint.h"
 #include "dispatch.h"
-#include "ranks.h"
 #include "record_buffer.h"
 #include "watch.h"
 #include "kapitza/common_border.h"

@@ -1,8 +1,6 @@
 /* Times of the stages: a table for people at the end, JSON lines for programs. */
 #include "watch.h"
 
-#include <string.h>
-
 kz_stopwatch kz_stopwatch_start(void) {
   return (kz_stopwatch){kz_clock(), kz_processor_clock(), kz_process_clock()};
 }

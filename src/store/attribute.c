@@ -1,5 +1,4 @@
 /* Attributes of the root, of groups and of variables. */
-#include <string.h>
 
 #include "store.h"
 

@@ -1,6 +1,4 @@
 /* Datasets written chunk by chunk, packed by kz_pack_into. */
-#include <stdlib.h>
-#include <string.h>
 
 #include "store.h"
 

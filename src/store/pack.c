@@ -1,7 +1,5 @@
 /* Arrays packed by zlib, as by HDF5's filters shuffle and deflate, or for memory only. */
 #include <limits.h>
-#include <stdlib.h>
-#include <string.h>
 #include <zlib.h>
 
 #include "kapitza/store.h"

@@ -1,5 +1,4 @@
 /* Existing variables: numbers, rows, chunks, meanings of values. */
-#include <stdlib.h>
 
 #include "store.h"
 

@@ -4,9 +4,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 /* Creates PATH.part, in a format without a limit of 64 KiB on attributes; no reader needs its lock. */

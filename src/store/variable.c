@@ -1,8 +1,5 @@
 /* Variables and their dimension scales, from the table. */
 #include <hdf5_hl.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "store.h"
 

@@ -1,7 +1,5 @@
 /* The drive of a pendulum from the keys that describe it: wave form, further harmonics, tilt, ellipse, torque. */
 #include <float.h>
-#include <math.h>
-#include <stdio.h>
 
 #include "kapitza/study.h"
 

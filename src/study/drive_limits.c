@@ -1,12 +1,9 @@
 /* Table of all that does not take every drive, and the refusals by name (docs/reference/commands.md, Drives). */
-#include <math.h>
 
-#include "kapitza/study.h"
 #include "stability/stability.h"
 #include "sweep/sweep.h"
 #include "kapitza/study_basin.h"
 #include "kapitza/study_orbit.h"
-#include "sweep/plan.h"
 
 /* Whether a key of the scene's sweep is such a one. */
 static bool is_swept(const kz_scene *scene, bool (*is_such)(int32_t parameter)) {

@@ -1,10 +1,7 @@
 /* The studies, one row each, in the order in which they run, and the groups of the result file. */
-#include <stdlib.h>
-#include <string.h>
 
 #include "basin/basin.h"
 #include "sweep/sweep.h"
-#include "kapitza/study.h"
 
 #define ROW(name) &kz_##name##_study,
 const kz_study *const kz_studies[] = {KZ_STUDIES(ROW)};

@@ -1,9 +1,5 @@
 /* The values of sweeps, along a line or over a plane: which keys they are of, and the pendulum at each. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "kapitza/study.h"
 #include "sweep/plan.h"
 
 /* Keys that change the motions of a pendulum. */

@@ -1,6 +1,4 @@
 /* Boundaries of basins in numbers: uncertain pairs, and boxes that hold several labels. */
-#include <math.h>
-#include <stdlib.h>
 
 #include "kapitza/analysis.h"
 #include "kapitza/analysis_boundary.h"

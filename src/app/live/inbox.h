@@ -1,9 +1,6 @@
 /* Reads lines of standard input as they arrive. */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
-
 #include "kapitza/common.h"
 
 typedef struct {

@@ -1,8 +1,6 @@
 /* Requests of other programs: JSON read into a tree as of a scene. */
 #include "json_read.h"
 
-#include <stdlib.h>
-
 enum { MOST_DEPTH = 100 };
 
 /* Where json-c takes what is not JSON: a single quote for a double one, a control character in a text. The place of the

@@ -1,8 +1,6 @@
 #include "map.h"
 
 #include <errno.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 static kz_status read_scene(kz_store *store, const char *path, kz_scene *scene) {

@@ -1,7 +1,6 @@
 #include "orbit.h"
 
 #include <stdatomic.h>
-#include <stdlib.h>
 
 #include "answer.h"
 #include "kapitza/common_threads.h"

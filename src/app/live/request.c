@@ -1,9 +1,5 @@
 #include "request.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "json_read.h"
 #include "kapitza/study_orbit.h"
 #include "kapitza/study_release.h"

@@ -1,9 +1,6 @@
 /* The command serve: answers requests until their end. Frames and charts are made in parts; between two parts newer
  * requests are read and, unless they are frames or charts themselves, answered. */
-#include <math.h>
 #include <signal.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "commands.h"
 #include "kapitza/dynamics_ends.h"

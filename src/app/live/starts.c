@@ -1,9 +1,5 @@
 /* Starts that the command where asks about: two operands, or a table on standard input. */
 #include <ctype.h>
-#include <float.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "where.h"
 

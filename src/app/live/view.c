@@ -1,6 +1,4 @@
 /* The command view: this process becomes the explorer. */
-#include <stdlib.h>
-#include <string.h>
 
 #include "commands.h"
 #include "tools/package.h"

@@ -1,7 +1,4 @@
 /* The command where: where starts end, for people, as CSV or as JSON. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "commands.h"
 #include "json.h"

@@ -1,6 +1,3 @@
-#include <float.h>
-#include <math.h>
-#include <stdio.h>
 
 #include "rules.h"
 #include "kapitza/study_basin.h"

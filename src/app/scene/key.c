@@ -1,7 +1,4 @@
 /* Functions on a row of the table of keys. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "scene.h"
 

@@ -1,9 +1,6 @@
 /* The table of a scene's keys: pendulum and numerics here, those of each study in its folder. */
-#include <math.h>
 #include <pthread.h>
-#include <string.h>
 
-#include "kapitza/analysis.h"
 #include "kapitza/study_key_rows.h"
 #include "scene.h"
 

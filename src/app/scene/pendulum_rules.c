@@ -1,7 +1,4 @@
 /* Rules of the mapping pendulum: keys that a laboratory's pendulum needs, and k, beta and m from them. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "rules.h"
 

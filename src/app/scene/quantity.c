@@ -1,9 +1,5 @@
 /* Numbers with a unit behind them: angles in degrees or parts of pi, lengths in cm, and so on. */
 #include <ctype.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "scene.h"
 

@@ -1,10 +1,6 @@
 /* Reads the tree of a scene into kz_scene, key by key of the table. */
 #include <limits.h>
-#include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "scene.h"
 

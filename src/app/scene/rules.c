@@ -1,7 +1,4 @@
 /* Rules between keys, and values that follow from others. Each rule complains at the node that a user would change. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "rules.h"
 #include "kapitza/study_basin.h"

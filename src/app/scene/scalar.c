@@ -1,10 +1,6 @@
 /* Strict scalars: decimal numbers only, no octal look, no nan, nothing quoted but numbers of many digits. */
 #include <ctype.h>
 #include <errno.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "scene.h"
 

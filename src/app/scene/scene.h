@@ -4,12 +4,6 @@
  * docs/reference/scene.md all come from its rows: a new key is a new row. */
 #pragma once
 
-#include <float.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdio.h>
-
-#include "kapitza/study.h"
 #include "kapitza/study_keys.h"
 
 /* The table: the keys of the pendulum and of numerics, then those of each study; a row without path ends it. */

@@ -1,6 +1,4 @@
 /* Types of numbers in docs/reference/scene.md: each defined once, linked from the rows of keys. */
-#include <stdio.h>
-#include <string.h>
 
 #include "scene.h"
 

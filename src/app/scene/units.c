@@ -1,7 +1,4 @@
 /* Units that a value may be written in: a small table, each row with the unit of the keys that take it. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "scene.h"
 

@@ -1,9 +1,5 @@
 /* Values of the types of the table: cleared, read from a node, printed. */
 #include <inttypes.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "scene.h"
 

@@ -1,5 +1,4 @@
 /* Output of the table of keys: a scene as YAML, and the reference of all keys. */
-#include <string.h>
 
 #include "scene.h"
 

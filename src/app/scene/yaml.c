@@ -1,7 +1,5 @@
 /* The only file that knows libyaml. A text is scanned first (depth, anchors, aliases, tags), so that the loader meets
  * nothing that grows or refers elsewhere; then it is loaded and copied into a tree of kz_node. */
-#include <stdlib.h>
-#include <string.h>
 #include <yaml.h>
 
 #include "scene.h"

@@ -1,6 +1,4 @@
 /* The command needs: how large the amplitude of the pivot must be for a pendulum to stand upside down. */
-#include <math.h>
-#include <string.h>
 
 #include "commands.h"
 #include "json.h"

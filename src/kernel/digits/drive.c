@@ -1,5 +1,4 @@
 /* The series of the drive in any number of digits over the steps of a stretch, and the ramp of a release. */
-#include <math.h>
 
 #include "step.h"
 

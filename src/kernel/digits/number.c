@@ -1,11 +1,6 @@
 /* Functions of numbers of any precision outside the inner loops. */
 #include "number.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 static const char degrees[] = " deg";
 
 kz_number *kz_numbers_make(int64_t n) {

@@ -1,10 +1,6 @@
 /* Numbers of any precision: FLINT's (Arb), without their radii. */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
 #include "kapitza/kernel_digits.h"
 
 #if __has_include(<flint/arb.h>)

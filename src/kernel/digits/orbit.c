@@ -1,7 +1,4 @@
 /* Orbits of any precision: memory of the series, steps halved until every series converges, whole periods. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "step.h"
 

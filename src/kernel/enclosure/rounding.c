@@ -1,8 +1,6 @@
 /* Recurrences of a step on bounds of the sizes of its numbers. */
 #include "rounding.h"
 
-#include <math.h>
-
 /* Factors of rounding, rounded up from the lemmas: 3.01 and 6.01 u^2 of operations on pairs, 1.01 u^3 of a constant. */
 const kz_rounding_factors kz_rounding = {
     .sine = {8, 48, 500},

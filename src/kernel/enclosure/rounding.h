@@ -2,9 +2,6 @@
  * docs/explanation/bounds.md. */
 #pragma once
 
-#include <stdbool.h>
-
-#include "kapitza/kernel_enclosure.h"
 #include "sets.h"
 
 typedef long double real;

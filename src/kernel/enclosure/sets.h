@@ -2,9 +2,6 @@
  * docs/explanation/bounds.md derives the bounds (B1) .. (B7). */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
-
 #include "kapitza/kernel_enclosure.h"
 #include "vector/pairs_arithmetic.h"
 

@@ -1,8 +1,5 @@
 /* Multiple shooting with a node a period. The equations M step = -F are solved by step = M^T y, (M M^T + shift) y = -F,
  * which is block tridiagonal: the least-norm step, and Levenberg's where that does not help. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "kapitza/kernel_paths.h"
 

@@ -1,7 +1,4 @@
 /* Discretised action: theta on a grid, fourth-order differences, an exact Hessian with nine diagonals. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "kapitza/kernel_paths.h"
 

@@ -1,8 +1,6 @@
 /* Motions under noise: half a drift, half a kick, friction and noise by their exact solution, and back (N.
  * Groenbech-Jensen, O. Farago, Mol. Phys. 111 (2013) 983). Random numbers are hashes of counters, so that a motion does
  * not depend on who follows it. */
-#include <math.h>
-#include <stdlib.h>
 
 #include "kapitza/kernel_paths.h"
 

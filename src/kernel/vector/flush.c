@@ -1,5 +1,4 @@
 /* Flushing of subnormals, which are fifteen times slower on x86; orbits that decay onto an equilibrium end in them. */
-#include <stdint.h>
 
 #include "kapitza/common_border.h"
 

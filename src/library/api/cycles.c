@@ -1,7 +1,4 @@
 /* Cycles and attractors, as lists for the caller. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "../library.h"
 #include "kapitza/dynamics_cycles.h"

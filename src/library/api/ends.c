@@ -1,8 +1,4 @@
 /* Where single starts end, with any number of digits; what an atlas says of its points. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "../library.h"
 

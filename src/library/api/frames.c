@@ -1,6 +1,4 @@
 /* Frames and charts on request, shown in parts. */
-#include <math.h>
-#include <string.h>
 
 #include "../library.h"
 #include "kapitza/dynamics_ends.h"

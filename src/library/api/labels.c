@@ -1,7 +1,4 @@
 /* Labels of starts, and of the cells of a window. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "../library.h"
 #include "kapitza/study_basin.h"

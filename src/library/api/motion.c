@@ -1,7 +1,4 @@
 /* Motions: the map of drive periods, orbits in continuous time, manifolds. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "../library.h"
 #include "kapitza/dynamics_saddles.h"

@@ -1,7 +1,5 @@
 /* Pendulums of the library: made, freed, used by one thread at a time. */
 #include <errno.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 #include <unistd.h>
 

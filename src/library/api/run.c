@@ -1,12 +1,8 @@
 /* Runs of scenes, and atlases of result files, in the process of the caller. HDF5 serves one thread at a time. */
 #include <errno.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "../library.h"
-#include "kapitza/store.h"
 
 static pthread_mutex_t one_thread = PTHREAD_MUTEX_INITIALIZER;
 

@@ -1,10 +1,7 @@
 #include "accuracy.h"
 
-#include <math.h>
-
 #include "numerics/cells.h"
 #include "numerics/share.h"
-#include "kapitza/study_basin.h"
 
 /* Samples, in multiples of the fewest that can prove an accuracy: then some labels may be wrong. */
 static const double MARGIN = 3;

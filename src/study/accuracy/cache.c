@@ -1,9 +1,6 @@
 /* Reference labels in a text file beside the result: a line with what they depend on, one line per cell, a checksum. */
 #include <fcntl.h>
 #include <inttypes.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "reference.h"

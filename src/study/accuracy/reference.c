@@ -1,16 +1,10 @@
 #include "reference.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "numerics/cells.h"
 #include "cells/cell_starts.h"
 #include "cells/scene_search.h"
 #include "numerics/share.h"
 #include "numerics/steps.h"
-#include "kapitza/kernel.h"
-#include "kapitza/study_basin.h"
 
 enum {
   STEPS = 48,    /* Steps of split6 a period, for a gentle drive */

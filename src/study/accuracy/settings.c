@@ -1,14 +1,10 @@
 /* The table of settings, and one setting measured: its dynamics, labels of the sampled cells, time. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "accuracy.h"
 #include "labelling/search.h"
 #include "cells/cell_starts.h"
 #include "numerics/cells.h"
 #include "numerics/resolve.h"
-#include "kapitza/study_basin.h"
 
 enum { MANY = 1 << 19 };       /* cells that are timed by method exact, where they do not take longer than LONG */
 static const double LONG = 20; /* s */

@@ -3,15 +3,9 @@
  * reference labels of a sample -> one tile per setting, done by one rank alone -> table, file. */
 #include "accuracy.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "numerics/cells.h"
 #include "numerics/share.h"
-#include "kapitza/study_basin.h"
 #include "numerics/steps.h"
-#include "kapitza/kernel.h"
 
 /* ---- its group in the file, its table for people ---- */
 

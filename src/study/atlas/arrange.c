@@ -1,7 +1,4 @@
 /* The arrangement of the curves: which attractors a place has, by counting crossings of its column from below. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "lines.h"
 #include "curves.h"

@@ -4,10 +4,6 @@
 #include "probe.h"
 #include "regions.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "labelling/search.h"
 #include "numerics/steps.h"
 

@@ -1,8 +1,5 @@
 /* An atlas from its result file: the curves, and what attracts at one place. */
-#include <math.h>
-#include <stdlib.h>
 
-#include "kapitza/analysis.h"
 #include "curves.h"
 #include "cycles.h"
 #include "regions.h"

@@ -1,10 +1,6 @@
 /* The file's group /atlas, and the summary. */
 #include <inttypes.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "kapitza/analysis.h"
 #include "numerics/share.h"
 #include "curves.h"
 #include "cycles.h"

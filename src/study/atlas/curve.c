@@ -1,7 +1,4 @@
 /* Curves: traced to both ends, known by a signature. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "curves.h"
 #include "cycles.h"

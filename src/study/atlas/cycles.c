@@ -1,7 +1,4 @@
 /* Cycles and points of curves in one canonical form, and the classes of attractors. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "cycles.h"
 

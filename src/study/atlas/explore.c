@@ -1,7 +1,4 @@
 /* Where other curves begin: what branches of cycles meet along both axes, and along lines through the whole plane. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "lines.h"
 #include "curves.h"

@@ -1,7 +1,4 @@
 /* Curves from seeds: they are traced and explored until nothing new is met. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "curves.h"
 #include "cycles.h"

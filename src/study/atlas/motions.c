@@ -1,7 +1,4 @@
 /* Motions of a point: listed by counting crossings of its column; states carried from where they begin or end. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "lines.h"
 #include "cycles.h"

@@ -1,7 +1,4 @@
 /* The plane of an atlas: places, their pendulums, what the plane has in common. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "curves.h"
 #include "cycles.h"

@@ -1,7 +1,4 @@
 /* The attractors of a place: those that starts end on, as cycles of the atlas. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "labelling/search.h"
 #include "numerics/cells.h"

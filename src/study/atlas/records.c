@@ -1,6 +1,4 @@
 /* Records of varying length: curves and seeds, gathered on all ranks in the order of their tiles. */
-#include <stdlib.h>
-#include <string.h>
 
 #include "curves.h"
 #include "records.h"

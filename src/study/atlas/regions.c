@@ -1,7 +1,4 @@
 /* The raster of an atlas: the list of attractors of every cell, and the regions with one list. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "lines.h"
 #include "cycles.h"

@@ -1,7 +1,4 @@
 /* Search for all curves: from cycles of places, and attractors not explained, until random places agree. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "numerics/share.h"
 #include "lines.h"

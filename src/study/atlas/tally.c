@@ -1,7 +1,5 @@
 /* How many places of the census see each curve, and what this says of curves that are missing. */
 #include <inttypes.h>
-#include <math.h>
-#include <stdlib.h>
 
 #include "numerics/share.h"
 #include "lines.h"

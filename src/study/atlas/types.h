@@ -4,12 +4,8 @@
  * A place is (x, y) in units of the rectangle: 0 at the first value of a key, 1 at the last. */
 #pragma once
 
-#include <math.h>
-
 #include "kapitza/dynamics.h"
 #include "kapitza/dynamics_trace.h"
-#include "kapitza/study.h"
-#include "kapitza/study_atlas.h"
 #include "numerics/parent.h"
 #include "plan.h"
 

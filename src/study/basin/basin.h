@@ -2,12 +2,8 @@
 #pragma once
 
 #include "labelling/catalogue.h"
-#include "kapitza/analysis.h"
-#include "kapitza/study.h"
 #include "label.h"
 #include "doubt.h"
-#include "numerics/counts.h"
-#include "kapitza/study_basin.h"
 
 enum { KZ_TILE_CELLS = 16384 }; /* cells of a tile, about: enough to keep all lanes busy while a few cells take long */
 

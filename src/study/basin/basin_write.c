@@ -1,8 +1,4 @@
 /* Study `basin`: measures of the labelled grid, its groups in the file, its summary. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "basin.h"
 

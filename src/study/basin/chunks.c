@@ -1,8 +1,5 @@
 /* From labels to the file: each rank turns its tiles, and those that mirror them, into ids, counts them and packs them;
  * rank 0 writes the chunks as they come. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "basin.h"
 

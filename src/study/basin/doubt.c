@@ -1,10 +1,7 @@
 #include "doubt.h"
 
-#include <stdlib.h>
-
 #include "cells/cell_starts.h"
 #include "numerics/cells.h"
-#include "kapitza/study_basin.h"
 
 enum { SAMPLE = 7300, TILE = 256 }; /* cells: a share of 5 % is known to +-0.5 points */
 

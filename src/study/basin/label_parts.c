@@ -1,8 +1,6 @@
 /* The labeller of a window, and packing a whole tile. */
-#include <stdlib.h>
 
 #include "label.h"
-#include "kapitza/study_basin.h"
 
 /* Bytes between members would be anything, and packed as such: it took a tenth of the time of a window. */
 _Static_assert(sizeof(kz_label) == sizeof(int64_t) + 3 * sizeof(int16_t) + 2 * sizeof(uint8_t) + 2 * sizeof(int32_t),

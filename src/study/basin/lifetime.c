@@ -1,7 +1,4 @@
 /* How long the transients of a window last. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "basin.h"
 

@@ -1,11 +1,7 @@
 /* The attractors of a window, then the labels of its cells, tile by tile. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "numerics/step_check.h"
 #include "label.h"
-#include "kapitza/study_basin.h"
 #include "kapitza/dynamics_steps.h"
 
 /* ---- pending cells, unsettled or doubtful: counted, picked and labelled again, a bounded number at a time ---- */

@@ -1,5 +1,4 @@
 #include "label.h"
-#include "kapitza/study_basin.h"
 
 enum { MOST_CELLS = 1 << 19 }; /* Cells of a tile: few MB */
 

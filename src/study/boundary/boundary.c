@@ -1,8 +1,6 @@
 /* Measures of how fractal the boundaries of a basin are: pairs of starts, boxes of cells. */
-#include <math.h>
 
 #include "boundary.h"
-#include "numerics/share.h"
 
 enum {
   STRIP = 1 << (KZ_BOX_SIZES - 1),

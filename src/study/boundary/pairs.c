@@ -1,10 +1,7 @@
 /* Pairs of starts beside each other: how many of them end differently, by their distance. */
 #include <float.h>
-#include <math.h>
-#include <stdlib.h>
 
 #include "boundary.h"
-#include "numerics/share.h"
 
 enum {
   STARTS = 64, /* Starts of a tile, each with a partner at every distance */

@@ -1,8 +1,5 @@
 #include "cell_starts.h"
 
-#include <stdlib.h>
-
-#include "kapitza/study_basin.h"
 #include "numerics/cells.h"
 
 static double *cell_starts_centres(const kz_axis *axis) {

@@ -1,7 +1,6 @@
 #include "scene_search.h"
 
 #include "attractors/plan.h"
-#include "kapitza/study_basin.h"
 #include "numerics/cells.h"
 
 kz_search kz_search_of_basin(const kz_basin_plan *plan) {

@@ -2,9 +2,6 @@
 #include "ends.h"
 
 #include <inttypes.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "numerics/cells.h"
 #include "numerics/steps.h"

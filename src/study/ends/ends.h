@@ -3,7 +3,6 @@
 
 #include "kapitza/dynamics.h"
 #include "kapitza/dynamics_ends.h"
-#include "kapitza/study.h"
 #include "plan.h"
 
 enum { KZ_NO_PENDULUM = -2 }; /* in place of a period: no pendulum, or one without damping */

@@ -1,8 +1,5 @@
 #include "counted.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 #include "routes.h"
 
 /* Motions of a tile. */

@@ -1,13 +1,7 @@
 /* Study `escape`: each attractor with each saddle to which a path is sought is a tile. */
-#include "routes.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "cells/scene_search.h"
 #include "counted.h"
-#include "gates.h"
 #include "report.h"
 #include "saddles/saddles.h"
 

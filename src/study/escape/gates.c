@@ -1,8 +1,5 @@
 #include "gates.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 /* rad: a branch begins so far from its saddle. */
 static const double FIRST_DISTANCE = 1e-5;
 

@@ -1,9 +1,5 @@
 /* Cycles as ends of paths, and guesses between them: the attractor's motion blended into the saddle's. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "routes.h"
 #include "guide.h"
 
 /* Points a period of the discretised action, and steps of the flow for each, of a pendulum with small forces. */

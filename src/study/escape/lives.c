@@ -1,6 +1,4 @@
 /* From paths to lives: mirror images, ways out of each attractor, islands. */
-#include <math.h>
-#include <string.h>
 
 #include "report.h"
 

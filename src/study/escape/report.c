@@ -1,9 +1,6 @@
 /* The group escape of the file, and the lines for people. */
 #include "report.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 /* Paths that the file shows point by point, and their points. */
 typedef struct {
   const kz_escape_report *of;

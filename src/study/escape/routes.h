@@ -1,11 +1,7 @@
 /* Study `escape`: the least torque that takes a motion out of its basin, or into another one. */
 #pragma once
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "kapitza/kernel_paths.h"
-#include "kapitza/study.h"
 #include "plan.h"
 
 /* A cycle from which paths lead, or to which: its ends at each strobe, and its angle between them. */

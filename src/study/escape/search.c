@@ -1,9 +1,5 @@
 /* The search for the least path between two cycles, from many guesses. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "routes.h"
 #include "guide.h"
 
 /* Periods of a path: fewest and most; more when its ends are finished. */

@@ -1,9 +1,6 @@
 #include "candidates.h"
 
 #include <float.h>
-#include <math.h>
-#include <stdbool.h>
-#include <string.h>
 
 #include "numerics/cells.h"
 

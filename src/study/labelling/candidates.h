@@ -1,8 +1,6 @@
 /* Labels by states alone, and what starts get that no level decides. */
 #pragma once
 
-#include <stdint.h>
-
 #include "kapitza/dynamics_labels.h"
 
 /* Labels of items that no level decides: KZ_DOUBTFUL; the label of the state without its error, in doubles or in quad

@@ -1,9 +1,6 @@
 #include "catalogue.h"
 
 #include <inttypes.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { SAMPLES = 96, LINES_PER_PERIOD = 8 };
 

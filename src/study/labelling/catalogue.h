@@ -1,13 +1,6 @@
 /* The catalogue of attractors as users see it: their order, their names, their group in the file. */
 #pragma once
 
-#include <stdint.h>
-#include <stdio.h>
-
-#include "kapitza/analysis.h"
-#include "kapitza/dynamics.h"
-#include "kapitza/store.h"
-#include "kapitza/study.h"
 #include "kapitza/study_catalogue.h"
 
 /* Lists attractors with reached [number] != 0 and their mirror images; NULL: all. The caller frees it. */

@@ -1,10 +1,5 @@
 #include "labeller.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "search.h"
 
 enum {

@@ -3,13 +3,7 @@
  * checkpoint keeps. Grids of cells, single starts, pairs at a boundary, frames and shocks are ways to make starts. */
 #pragma once
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "candidates.h"
-#include "kapitza/dynamics.h"
-#include "kapitza/parallel.h"
-#include "kapitza/study.h"
 #include "levels.h"
 
 /* Makes the start of an item for a level. Finer levels may begin their own arithmetic earlier, after fewer periods. */

@@ -1,8 +1,6 @@
 #include "levels.h"
 #include "kapitza/study_catalogue.h"
 
-#include <stddef.h>
-
 const kz_level kz_level_rows[KZ_LEVELS] = {
     [KZ_LEVEL_DOUBLE] = {"double", "cells", KZ_FOLLOWED, 4096, 1e-16L, false},
     [KZ_LEVEL_FINE] = {"double", "fine", KZ_IN_FINE, 4096, 1e-16L, false},

@@ -1,9 +1,6 @@
 /* The levels of precision, and how labels are known. No other folder of studies knows a level by its name. */
 #pragma once
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "kapitza/dynamics_labels.h"
 #include "kapitza/study.h"
 

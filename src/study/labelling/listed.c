@@ -1,9 +1,5 @@
 #include "listed.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 static kz_status read_columns(kz_store *store, const char *group, const kz_listed *m) {
   const int64_t n = m->count;
   KZ_TRY(kz_store_numbers(store, group, "period", n, m->period));

@@ -2,10 +2,6 @@
  * the end is chaotic, or has not settled. */
 #include "search.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "numerics/cells.h"
 #include "kapitza/dynamics_labels.h"
 

@@ -1,10 +1,7 @@
 /* Discovery of the attractors that a set of starts ends on; shared by the studies that need a catalogue. */
 #pragma once
 
-#include <stdint.h>
-
 #include "kapitza/dynamics.h"
-#include "kapitza/parallel.h"
 #include "kapitza/study.h"
 
 /* A search: its starts, the trapping regions and the map table. */

@@ -1,11 +1,6 @@
 #include "live.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-#include "labelling/labeller.h"
 #include "numerics/cells.h"
-#include "kapitza/study_basin.h"
 
 /* Periods after which a cell is late: most cells of a whole circle take fewer. */
 enum { SOON = 24 };

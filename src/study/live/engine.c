@@ -1,15 +1,9 @@
 #define _GNU_SOURCE /* pthread_rwlockattr_setkind_np */
 #include "live.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "labelling/levels.h"
 #include "numerics/cells.h"
 #include "where/where.h"
 #include "kapitza/common_border.h"
-#include "kapitza/study_basin.h"
 
 kz_engine *kz_engine_create(void) {
   kz_engine *engine = kz_calloc(1, sizeof *engine);

@@ -1,10 +1,7 @@
 /* A frame raster by raster, coarse ones first: pending cells are followed in tiles, then the raster is shown. */
-#include <math.h>
-#include <stdlib.h>
 
 #include "live.h"
 #include "numerics/cells.h"
-#include "kapitza/study_basin.h"
 
 enum {
   MOST_STARTS = 64,        /* starts of the search among cells that do not settle */

@@ -1,6 +1,5 @@
 /* Attractors that an atlas lists at a frame's pendulum: carried from its curves, without a search. */
 #include "kapitza/dynamics_saddles.h"
-#include "kapitza/study_basin.h"
 #include "kapitza/study_atlas.h"
 #include "live.h"
 

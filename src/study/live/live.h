@@ -6,7 +6,6 @@
 #include "labelling/catalogue.h"
 #include "labelling/search.h"
 #include "kapitza/dynamics_live.h"
-#include "kapitza/study_release.h"
 #include "kapitza/study_live.h"
 #include "window/window.h"
 

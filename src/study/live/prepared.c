@@ -1,13 +1,8 @@
 #include "live.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "cells/scene_search.h"
 #include "numerics/cells.h"
 #include "numerics/resolve.h"
-#include "kapitza/study_basin.h"
 
 /* rad: the error of a period that moving frames bear where their cells are wider than SMALL, and where they are not,
  * which at any depth are some 1e-7 wide when they are handed over; and the starts of the search. */

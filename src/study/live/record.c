@@ -1,6 +1,4 @@
 /* Records of motions on request. */
-#include <math.h>
-#include <stdlib.h>
 
 #include "kapitza/study_live.h"
 #include "orbit/orbit.h"

@@ -1,6 +1,4 @@
 /* Attractors of neighbouring points joined by continuation. */
-#include <math.h>
-#include <stdlib.h>
 
 #include "points.h"
 

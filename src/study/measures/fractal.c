@@ -1,12 +1,9 @@
 /* Measures of how intricate the boundaries in the picture are: entropy (A. Daza et al., Sci. Rep. 6 (2016) 31416),
  * uncertainty exponent and dimension (C. Grebogi et al., Phys. Lett. A 99 (1983) 415), boundaries that basins share (A.
  * Daza et al., Sci. Rep. 8 (2018) 9954). */
-#include <math.h>
 
 #include "kapitza/analysis_boundary.h"
-#include "numerics/counts.h"
 #include "measures.h"
-#include "numerics/cells.h"
 
 enum { SHARED_BOX = 16 }; /* cells along an edge of a box of shared boundaries */
 static const double ALL = 0.99;

@@ -1,8 +1,6 @@
 /* Measures of a motion itself and of the linear motion near it: mean velocity; return time by Floquet's multipliers,
  * growth of small disturbances by singular values of the map's derivatives, in the norm hypot(dtheta, dvelocity /
  * shock_scale). */
-#include <math.h>
-#include <string.h>
 
 #include "measures.h"
 

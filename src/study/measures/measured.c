@@ -1,12 +1,6 @@
 /* Properties of a pendulum: attractors, labelled starts and picture, map derivatives, shocks; made if needed. */
-#include <math.h>
-#include <stdlib.h>
 
-#include "kapitza/analysis.h"
-#include "labelling/labeller.h"
-#include "labelling/search.h"
 #include "measures.h"
-#include "numerics/cells.h"
 
 enum {
   PILOTS = 512, /* starts of the search; others that end nowhere known start another one */

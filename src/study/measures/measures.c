@@ -1,12 +1,6 @@
 /* Study `measures`: the table of one pendulum. */
 #include "measures.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "labelling/labeller.h"
-#include "numerics/cells.h"
 #include "numerics/step_check.h"
 
 static const char *const GROUP = "measures";

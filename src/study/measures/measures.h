@@ -1,9 +1,6 @@
 /* Study `measures`: numbers about the attractors of a pendulum and their basins. */
 #pragma once
 
-#include "kapitza/dynamics.h"
-#include "kapitza/parallel.h"
-#include "labelling/catalogue.h"
 #include "resilience/resilience.h"
 #include "plan.h"
 #include "table.h"

@@ -1,7 +1,5 @@
 #include "picture.h"
 
-#include <math.h>
-
 #include "kapitza/common.h"
 
 /* Squares of distances along one line: least over j of f[j] + ((i - j) step)^2, the lower envelope of parabolas. place,

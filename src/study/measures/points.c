@@ -1,12 +1,6 @@
 /* A stage whose tiles are points: each process measures its own pendulums. */
 #include "points.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "labelling/labeller.h"
-
 /* ---- the file's groups /plane and /line, and the summary ---- */
 
 typedef struct {

@@ -1,5 +1,4 @@
 /* The table of measures as rows, and what follows from them. */
-#include <stddef.h>
 
 #include "measures.h"
 #include "kapitza/study_keys.h"

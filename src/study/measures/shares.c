@@ -1,6 +1,4 @@
 /* Measures of starts: shares with their intervals, and settling times. */
-#include <math.h>
-#include <stdlib.h>
 
 #include "measures.h"
 #include "numerics/share.h"

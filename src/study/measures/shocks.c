@@ -1,6 +1,5 @@
 /* Measures of sudden changes of the state: the smallest that leave the basin, over all strobe points of an attractor,
  * and how many of a size do not (src/study/resilience). */
-#include <math.h>
 
 #include "measures.h"
 

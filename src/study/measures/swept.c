@@ -1,11 +1,8 @@
 /* Measures of a sweep: smallest shocks of the branches, and those of the table at single points. */
 #define KEYS_OF swept
 
-#include <math.h>
-
 #include "option_keys.h"
 #include "points.h"
-#include "sweep/plan.h"
 
 #define BARRED(word, ...) "|" #word
 static const char WORDS_OF_PART[] = "resilience" KZ_MEASURES(BARRED, BARRED, BARRED, BARRED, BARRED);

@@ -1,10 +1,7 @@
 #include "cells.h"
-#include "kapitza/study_basin.h"
 #include "kapitza/dynamics_labels.h"
 
 #include <float.h>
-#include <math.h>
-#include <string.h>
 
 __float128 kz_decimal_quad(const char *text) {
   static const char radians[] = "0.0174532925199432957692369076848861271344";

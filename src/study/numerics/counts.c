@@ -1,7 +1,5 @@
 #include "counts.h"
 
-#include <math.h>
-
 /* One box of across x up cells: its settled cells, and how many of them each label has. */
 static void count_box(int64_t columns, int64_t across, int64_t up, const int16_t *label, kz_counts *counts) {
   int16_t seen[KZ_BOX_CELLS];

@@ -2,9 +2,6 @@
  * 31416) and uncertain shares at distances (C. Grebogi et al., Phys. Lett. A 99 (1983) 415). */
 #pragma once
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "kapitza/store.h"
 
 enum { KZ_BOX = 5 }; /* cells along an edge of a box of the basin entropy */

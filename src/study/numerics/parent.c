@@ -1,5 +1,3 @@
-#include <math.h>
-#include <string.h>
 
 #include "parent.h"
 

@@ -1,8 +1,6 @@
 /* Relatives of cycles over a plane: the cycle that one merges with at its end, and its daughters. */
 #pragma once
 
-#include <math.h>
-
 #include "kapitza/dynamics_curves.h"
 
 /* Drive periods of a cycle of this kind. */

@@ -1,9 +1,6 @@
 #include "resolve.h"
 
-#include <math.h>
-
 #include "cells.h"
-#include "kapitza/study_basin.h"
 #include "attractors/plan.h"
 #include "kapitza/study_orbit.h"
 #include "sweep/plan.h"

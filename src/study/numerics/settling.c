@@ -1,8 +1,6 @@
 /* How long motions take to settle. Damping shrinks areas by e in 1/(2 pi beta) periods, its lifetime; the weaker it is,
  * the smaller are the trapping regions and the more lifetimes it takes to get there. */
-#include <math.h>
 
-#include "kapitza/study.h"
 #include "kapitza/study_basin.h"
 #include "sweep/plan.h"
 

@@ -1,10 +1,8 @@
 #include "step_check.h"
 
 #include <float.h>
-#include <math.h>
 
 #include "cells.h"
-#include "kapitza/study_basin.h"
 
 enum {
   DOUBLINGS = 8,       /* Doublings of the steps that are tried as advice */

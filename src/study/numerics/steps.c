@@ -1,7 +1,5 @@
 #include "steps.h"
 
-#include <math.h>
-
 #include "kapitza/dynamics_steps.h"
 
 static const double ROUNDING = 1e-13; /* rad: an error of a period below this is hardly more than rounding */

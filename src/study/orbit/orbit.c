@@ -2,8 +2,6 @@
 #include "orbit.h"
 
 #include <inttypes.h>
-#include <math.h>
-#include <string.h>
 
 #include "labelling/listed.h"
 #include "numerics/step_check.h"

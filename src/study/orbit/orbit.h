@@ -1,9 +1,7 @@
 /* Study `orbit`: its parts. One motion of one pendulum, by one of three models. */
 #pragma once
 
-#include "kapitza/analysis.h"
 #include "kapitza/dynamics.h"
-#include "kapitza/study.h"
 #include "kapitza/study_orbit.h"
 
 /* ---- the motion ---- */

@@ -1,7 +1,5 @@
 /* Study `orbit`: its group in the file, its line for people. */
 #include <inttypes.h>
-#include <math.h>
-#include <string.h>
 
 #include "orbit.h"
 

@@ -1,8 +1,5 @@
 /* Study `potential`. One rank does it all: at most some hundred curves in closed form. */
-#include <math.h>
 
-#include "kapitza/analysis.h"
-#include "kapitza/study.h"
 #include "plan.h"
 
 static const char *const GROUP = "potential";

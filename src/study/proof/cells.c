@@ -2,12 +2,8 @@
  * of two doubles and at last of three. The starts are the cells - of some tiles at a time, so that what all ranks know
  * of them stays small - and random real starts of the window, which bound the share of its area that may end elsewhere
  * than on attractors that are proved. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "proof.h"
-#include "numerics/share.h"
 
 enum {
   MOST_CELLS = 1 << 22, /* Cells of tiles that are taken together */

@@ -1,5 +1,4 @@
 /* The part `proof` of the study basin, and what it writes. */
-#include <stdlib.h>
 
 #include "proof.h"
 

@@ -1,7 +1,5 @@
 /* The region of a proof. First the ellipses of all attractors; then rounds in which every open cell of a grid is
  * followed into the region of the round before: the result does not depend on who follows which. */
-#include <math.h>
-#include <stdlib.h>
 
 #include "proof.h"
 

@@ -1,11 +1,7 @@
 /* Measure `phases` of a sweep, the share that ends alike at any phase of release: its row, and its keys. */
 #define KEYS_OF alike
 
-#include <math.h>
-
-#include "cells/cell_starts.h"
 #include "kapitza/study_key_rows.h"
-#include "numerics/cells.h"
 #include "phases.h"
 #include "release.h"
 #include "sweep/sweep.h"

@@ -1,8 +1,5 @@
 #include "phases.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 enum { BLOCK = 16384 };
 
 double kz_phase_at(const kz_phases *p, int64_t i) {

@@ -1,8 +1,6 @@
 /* The release of a scene: from its keys to kz_release, to the dynamics and to the file. */
 #include "release.h"
 
-#include <math.h>
-
 static bool release_has(double value) {
   return !isnan(value) && value != 0;
 }

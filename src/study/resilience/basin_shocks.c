@@ -1,9 +1,6 @@
 /* The smallest shocks that leave the basins: the file's group /shocks, and its part of the summary. */
-#include <math.h>
-#include <stdlib.h>
 
 #include "basin/basin.h"
-#include "plan.h"
 #include "resilience.h"
 
 enum { KINDS = 3 };

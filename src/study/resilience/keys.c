@@ -2,7 +2,6 @@
 #define KEYS_OF shocks
 
 #include "kapitza/study_key_rows.h"
-#include "plan.h"
 #include "resilience.h"
 
 static const kz_key keys[] = {

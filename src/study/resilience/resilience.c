@@ -1,11 +1,5 @@
 #include "resilience.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <string.h>
-
-#include "labelling/labeller.h"
-
 const char *kz_sizes_lack(const kz_reals *sizes) {
   if (sizes->count < 1 || sizes->count > KZ_MOST_SHOCK_SIZES) return "sizes: must be a list of 1 to 16 sizes";
   for (int64_t i = 1; i < sizes->count; i++)

@@ -4,9 +4,6 @@
 
 #include "basin/label.h"
 #include "labelling/catalogue.h"
-#include "labelling/labeller.h"
-#include "kapitza/parallel.h"
-#include "kapitza/study.h"
 #include "plan.h"
 
 extern const kz_basin_part kz_shocks_part;

@@ -1,8 +1,5 @@
 #include "resilience.h"
 
-#include <math.h>
-#include <stdbool.h>
-
 enum {
   FAN = 24,     /* most rays on each side of the best one */
   PASSES = 12,  /* most grids of a search */

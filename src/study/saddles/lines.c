@@ -1,10 +1,6 @@
 /* A round of the search: the window is crossed by parallel lines of starts, whose pieces are the tiles. */
 #include "saddles.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum {
   LEAST_LINES = 4,
   CELLS = 16,             /* Cells of a piece */

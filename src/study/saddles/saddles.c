@@ -3,9 +3,6 @@
 #include "kapitza/study_saddles.h"
 
 #include <complex.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 /* All cycles, and those that do not attract (indices are ids), which share the strobe points of the former. */
 typedef struct {

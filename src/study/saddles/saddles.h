@@ -3,7 +3,6 @@
 #pragma once
 
 #include "kapitza/dynamics_saddles.h"
-#include "kapitza/study.h"
 #include "labelling/catalogue.h"
 #include "labelling/listed.h"
 #include "plan.h"

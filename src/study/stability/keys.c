@@ -1,7 +1,6 @@
 /* The study `stability`: its row, and the table of its keys. */
 #define KEYS_OF stability
 
-#include "kapitza/analysis.h"
 #include "kapitza/study_key_rows.h"
 #include "kapitza/study_stability.h"
 

@@ -1,11 +1,5 @@
 #include "stability.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "kapitza/kernel.h"
-
 /* Points of a tile of the chart, and values of k of a tile of a curve. */
 enum { POINTS = 2048, PIECE = 64 };
 

@@ -1,8 +1,6 @@
 /* Study `stability`: chart of the (damped) Hill or Mathieu equation over (k, m), transition curves over k or m. */
 #pragma once
 
-#include "kapitza/analysis.h"
-#include "kapitza/study.h"
 #include "kapitza/study_stability.h"
 
 /* Whether a chart asks for a curve whose name begins so, and for one that only a sine has. */

@@ -1,8 +1,5 @@
 /* The group /stability. */
 #include <inttypes.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "stability.h"
 

@@ -1,9 +1,6 @@
 /* Branches of a sweep into the file, and a table of them for people. */
-#include <math.h>
-#include <stdlib.h>
 
 #include "numerics/share.h"
-#include "kapitza/analysis.h"
 #include "sweep.h"
 
 static const char *const END_NAMES[] = {"end of range",      "fold",        "period doubling", "Neimark-Sacker",

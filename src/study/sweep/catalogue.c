@@ -1,15 +1,11 @@
 /* The attractors at each value of a sweep, and the share of the starts or of the cells that each takes. A value may
  * take long: all ranks work on it together, and finished work is kept. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "labelling/catalogue.h"
 #include "numerics/cells.h"
 #include "cells/scene_search.h"
 #include "cells/cell_starts.h"
 #include "sweep.h"
-#include "kapitza/study_basin.h"
 
 /* ---- measure lifetime: how long the motions take that have not settled soon ---- */
 

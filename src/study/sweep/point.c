@@ -1,6 +1,4 @@
 /* The path of a sweep; a point of a branch beside another one. */
-#include <math.h>
-#include <stdlib.h>
 
 #include "sweep.h"
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "kapitza/dynamics_cycles.h"
-#include "kapitza/study.h"
 #include "plan.h"
 
 /* Whether the cells of the scene's basin are labelled at each value, else the starts of the sweep. */

@@ -1,10 +1,8 @@
 /* Whether the steps are fine enough for a sweep: some of its values are tried. */
-#include <math.h>
 
 #include "numerics/cells.h"
 #include "numerics/step_check.h"
 #include "sweep.h"
-#include "kapitza/study_basin.h"
 
 enum {
   VALUES = 17,  /* values tried, fewer if they take many steps */

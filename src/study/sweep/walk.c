@@ -1,6 +1,4 @@
 /* One cycle carried along a parameter, with its events: the continuation of the atlas in one key. */
-#include <math.h>
-#include <string.h>
 
 #include "numerics/parent.h"
 #include "sweep.h"

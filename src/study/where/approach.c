@@ -1,11 +1,7 @@
 /* Time from which a motion stays within one degree of its attractor at the strobes. */
 #include "kapitza/dynamics_live.h"
 #include <float.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "kapitza/dynamics.h"
 #include "where.h"
 
 enum { TOGETHER = 64, FOLDS = 40 /* e-folding times after which a motion is no longer followed */ };

@@ -4,9 +4,6 @@
  * follows a new orbit only when the number of digits has grown by about a half. */
 #include "where.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "window/window.h"
 
 /* The points between the ends fill the lanes of an orbit in quad precision. */

@@ -1,12 +1,8 @@
 /* Ends of starts: the catalogue of the window, then each start in as much precision as needed. One rank. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "numerics/cells.h"
 #include "cells/scene_search.h"
 #include "where.h"
-#include "kapitza/study_basin.h"
 #include "window/window.h"
 
 /* A kz_start_fn: a pair of doubles, and what it leaves out of a longer number. */

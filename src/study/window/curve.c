@@ -1,10 +1,6 @@
 #include "window.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 #include "numerics/cells.h"
-#include "kapitza/study_basin.h"
 
 enum { PER_CELL = 16 };
 static const double thin = 0.1; /* steps: the width of what counts as a curve */

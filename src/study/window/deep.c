@@ -1,9 +1,5 @@
 #include "deep.h"
 
-#include <stdlib.h>
-
-#include "kapitza/study_basin.h"
-#include "numerics/cells.h"
 #include "plan.h"
 
 /* Largest number of cells of a window whose pending cells own orbits decide even if basin.undecided is flag. */

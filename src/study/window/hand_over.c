@@ -1,5 +1,4 @@
 /* Chooses the period where per-cell integration starts: the last image as accurate as the arithmetic after it. */
-#include <math.h>
 
 #include "window.h"
 

@@ -1,10 +1,6 @@
 /* The orbit of a window's centre, and its images. */
 #include "window.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "numerics/cells.h"
 
 /* Bits that the orbit keeps below the size of the window's image: its error is then some 1e-27 of that size. Of a line,

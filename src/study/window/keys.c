@@ -1,9 +1,6 @@
 /* The part `deep` of the study basin: its row, and its keys. */
 #define KEYS_OF deep
 
-#include <math.h>
-
-#include "kapitza/study_basin.h"
 #include "deep.h"
 #include "kapitza/study_key_rows.h"
 #include "plan.h"

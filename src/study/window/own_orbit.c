@@ -1,10 +1,6 @@
 /* One start followed in as many digits as decide where it ends. */
 #include "window.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* Each further try has a third more bits: twice as many take five times as long, and are seldom needed. */
 enum {
   FEWEST_BITS = 160,  /* Bits of the first try */

@@ -1,9 +1,6 @@
 #include "window.h"
 
-#include <stdlib.h>
-
 #include "numerics/cells.h"
-#include "kapitza/study_basin.h"
 
 /* Places of the cells of an axis. */
 static __float128 *starts_places(const kz_axis *axis, const kz_view *view, int i) {

@@ -1,5 +1,4 @@
 /* Place of a proved cycle and its multipliers, from the smallest trapping ellipse around its first strobe point. */
-#include <math.h>
 
 #include "proof.h"
 

@@ -1,6 +1,4 @@
 /* Sets that are followed, period by period, until the region of one attractor holds them: single starts, and cells. */
-#include <math.h>
-#include <stdlib.h>
 
 #include "proof.h"
 

@@ -1,6 +1,4 @@
 /* The grid of a proof: cells of the strobe plane, each open or proved to end on an attractor. */
-#include <math.h>
-#include <stdlib.h>
 
 #include "proof.h"
 

@@ -1,8 +1,6 @@
 /* Internals of the proofs (dynamics_proof.h): proved regions of starts, and sets that are followed into them. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "kapitza/dynamics_proof.h"
 
 /* An ellipse of the region, with the box around it, which excludes most sets quickly. */
