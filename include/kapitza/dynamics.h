@@ -54,9 +54,9 @@ int64_t kz_dynamics_find_size(const kz_dynamics *dynamics, kz_find what);
 /* Adds the attractors in `found` to the catalogue. */
 void kz_dynamics_adopt(kz_dynamics *dynamics, const double *found);
 
-/* The catalogue as doubles, flat [n], for messages between ranks; n = kz_dynamics_packed_size. */
-int64_t kz_dynamics_packed_size(const kz_dynamics *dynamics);
-void kz_dynamics_pack(const kz_dynamics *dynamics, int64_t n, double *flat);
+/* The catalogue as doubles, flat [n], for messages between ranks. Returns how many it takes; with a smaller n it writes
+ * none. */
+int64_t kz_dynamics_pack(const kz_dynamics *dynamics, int64_t n, double *flat);
 void kz_dynamics_unpack(kz_dynamics *dynamics, int64_t n, const double *flat);
 
 /* Makes an empty map table: n_theta nodes on the circle, n_velocity rows to +-top, just above `max_velocity`. */

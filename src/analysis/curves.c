@@ -1,10 +1,5 @@
-
 #include "curves.h"
 
-/* Returns m for low <= k <= high, else NaN. */
-static double value_within(double k, double low, double high, double m) {
-  return k >= low && k <= high ? m : NAN;
-}
 /* Square root of a radicand that rounding may push below 0 at the end of its domain. */
 static double root_of(double x) {
   return x < 0 && x > -1e-12 ? 0 : sqrt(x);
@@ -14,17 +9,19 @@ static double root_of(double x) {
 #define UNUSED __attribute__((unused))
 #define CURVE(name) static double name(double k, double beta UNUSED, double turn UNUSED)
 
-#define EXACT(name, curve, beyond_turn)               \
-  CURVE(name) {                                       \
-    return kz_mathieu_m(curve, k, turn, beyond_turn); \
+/* m of a curve for low <= k <= high, else NaN. */
+#define FORMULA(name, low, high, m)               \
+  CURVE(name) {                                   \
+    return k >= (low) && k <= (high) ? (m) : NAN; \
   }
-EXACT(exact_1, 1, 0)
-EXACT(exact_2, 2, 0)
-EXACT(exact_3, 3, 0)
-EXACT(exact_3_upper, 3, 1)
-EXACT(exact_4, 4, 0)
-EXACT(exact_5, 5, 0)
-EXACT(exact_5_upper, 5, 1)
+
+FORMULA(exact_1, -INFINITY, INFINITY, kz_mathieu_m(1, k, turn, 0))
+FORMULA(exact_2, -INFINITY, INFINITY, kz_mathieu_m(2, k, turn, 0))
+FORMULA(exact_3, -INFINITY, INFINITY, kz_mathieu_m(3, k, turn, 0))
+FORMULA(exact_3_upper, -INFINITY, INFINITY, kz_mathieu_m(3, k, turn, 1))
+FORMULA(exact_4, -INFINITY, INFINITY, kz_mathieu_m(4, k, turn, 0))
+FORMULA(exact_5, -INFINITY, INFINITY, kz_mathieu_m(5, k, turn, 0))
+FORMULA(exact_5_upper, -INFINITY, INFINITY, kz_mathieu_m(5, k, turn, 1))
 
 static double cosine_cut(double k) {
   return 2 * root_of(k * (k - 1) * (k - 4) / (3 * k - 8));
@@ -32,79 +29,37 @@ static double cosine_cut(double k) {
 static double half_radical(double k) {
   return root_of((9 - 4 * k) * (13 - 20 * k));
 }
-CURVE(butikov_1) {
-  return value_within(k, -INFINITY, 0, cosine_cut(k));
+FORMULA(butikov_1, -INFINITY, 0, cosine_cut(k))
+FORMULA(butikov_2, -INFINITY, 0.25, 0.25 * (half_radical(k) - (9 - 4 * k)))
+FORMULA(butikov_3, 0.25, 0.65, 0.25 * (9 - 4 * k - half_radical(k)))
+FORMULA(butikov_3_upper, -INFINITY, 0.65, 0.25 * (9 - 4 * k + half_radical(k)))
+FORMULA(butikov_4, -INFINITY, 1, root_of(2 * (k - 1) * (k - 4) * (k - 9) / (k - 5)))
+FORMULA(butikov_5, 1, 8.0 / 3, cosine_cut(k))
+static double refined_4(double k) {
+  return root_of((((5 * k - 162) * k + 2101) * k - 12136) * k + 24592);
 }
-CURVE(butikov_2) {
-  return value_within(k, -INFINITY, 0.25, 0.25 * (half_radical(k) - (9 - 4 * k)));
-}
-CURVE(butikov_3) {
-  return value_within(k, 0.25, 0.65, 0.25 * (9 - 4 * k - half_radical(k)));
-}
-CURVE(butikov_3_upper) {
-  return value_within(k, -INFINITY, 0.65, 0.25 * (9 - 4 * k + half_radical(k)));
-}
-CURVE(butikov_4) {
-  return value_within(k, -INFINITY, 1, root_of(2 * (k - 1) * (k - 4) * (k - 9) / (k - 5)));
-}
-CURVE(butikov_5) {
-  return value_within(k, 1, 8.0 / 3, cosine_cut(k));
-}
-CURVE(butikov_4_refined) {
-  double inner = root_of((((5 * k - 162) * k + 2101) * k - 12136) * k + 24592);
-  return value_within(k, -INFINITY, 1, root_of(2 * ((3 * k - 47) * k + 164 - inner)));
-}
+FORMULA(butikov_4_refined, -INFINITY, 1, root_of(2 * ((3 * k - 47) * k + 164 - refined_4(k))))
 static double refined_5(double k, double sign) {
   double inner = root_of(648 + k * (k - 9) * (k * k - 13 * k + 68));
   return root_of(4 * k * k - 36 * k + 72 + sign * 2 * sqrt(2) * inner);
 }
-CURVE(butikov_5_refined) {
-  return value_within(k, 1, 4, refined_5(k, -1));
-}
-CURVE(butikov_5_refined_upper) {
-  return value_within(k, -INFINITY, 4, refined_5(k, 1));
-}
+FORMULA(butikov_5_refined, 1, 4, refined_5(k, -1))
+FORMULA(butikov_5_refined_upper, -INFINITY, 4, refined_5(k, 1))
 
-CURVE(blackburn_lower) {
-  return value_within(k, -INFINITY, 0, sqrt(-2 * k));
-}
-CURVE(blackburn_upper) {
-  return value_within(k, -INFINITY, 0, 0.450 - 1.799 * k);
-}
-CURVE(blackburn_upper_note) {
-  return value_within(k, -INFINITY, 0, 0.450 - 2.22 * k);
-}
-CURVE(blackburn_tangent) {
-  return value_within(k, -INFINITY, 0.25, 2 * (0.25 - k));
-}
-CURVE(blackburn_down_upper) {
-  return value_within(k, 0, 0.25, 0.450 - 1.799 * k);
-}
+FORMULA(blackburn_lower, -INFINITY, 0, sqrt(-2 * k))
+FORMULA(blackburn_upper, -INFINITY, 0, 0.450 - 1.799 * k)
+FORMULA(blackburn_upper_note, -INFINITY, 0, 0.450 - 2.22 * k)
+FORMULA(blackburn_tangent, -INFINITY, 0.25, 2 * (0.25 - k))
+FORMULA(blackburn_down_upper, 0, 0.25, 0.450 - 1.799 * k)
 
-CURVE(damped_0) {
-  return kz_tongue_lower(k, beta);
-}
-CURVE(damped_1) {
-  return kz_tongue_edge(1, k, beta, turn, false);
-}
-CURVE(damped_1_upper) {
-  return kz_tongue_edge(1, k, beta, turn, true);
-}
-CURVE(damped_2) {
-  return kz_tongue_edge(2, k, beta, turn, false);
-}
-CURVE(damped_2_upper) {
-  return kz_tongue_edge(2, k, beta, turn, true);
-}
-CURVE(butikov_damped_1) {
-  return value_within(k, -INFINITY, 2.25, kz_hill_cut_half(k, beta, false));
-}
-CURVE(butikov_damped_1_upper) {
-  return value_within(k, -INFINITY, 2.25, kz_hill_cut_half(k, beta, true));
-}
-CURVE(butikov_damped_2) {
-  return value_within(k, -INFINITY, 8.0 / 3, kz_hill_cut_whole(k, beta));
-}
+FORMULA(damped_0, -INFINITY, INFINITY, kz_tongue_lower(k, beta))
+FORMULA(damped_1, -INFINITY, INFINITY, kz_tongue_edge(1, k, beta, turn, false))
+FORMULA(damped_1_upper, -INFINITY, INFINITY, kz_tongue_edge(1, k, beta, turn, true))
+FORMULA(damped_2, -INFINITY, INFINITY, kz_tongue_edge(2, k, beta, turn, false))
+FORMULA(damped_2_upper, -INFINITY, INFINITY, kz_tongue_edge(2, k, beta, turn, true))
+FORMULA(butikov_damped_1, -INFINITY, 2.25, kz_hill_cut_half(k, beta, false))
+FORMULA(butikov_damped_1_upper, -INFINITY, 2.25, kz_hill_cut_half(k, beta, true))
+FORMULA(butikov_damped_2, -INFINITY, 8.0 / 3, kz_hill_cut_whole(k, beta))
 
 #define CURVES(ROW, UPPER, EDGES)                                                           \
   ROW(exact_1, 0)              /* k <= 0: 4k = a_0(2m) */                                   \

@@ -1,5 +1,4 @@
 /* Turning points of a sampled motion. */
-
 #include "kapitza/analysis.h"
 
 enum { NODES = 4, TERMS = 2 * NODES };

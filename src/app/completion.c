@@ -1,5 +1,4 @@
 /* Completions of shells: each script asks the program for the next words, known from tables of commands and keys. */
-
 #include "commands.h"
 
 /* A word and its description a line; FILE where the name of a file may stand. */

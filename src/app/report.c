@@ -1,5 +1,4 @@
 /* Reports about a scene or about the program: check, keys, --version, warnings, the message at the end. */
-
 #include "app.h"
 #include "json.h"
 #include "kapitza/version.h"

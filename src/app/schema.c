@@ -1,5 +1,4 @@
 /* The table of keys as a JSON schema (draft 2020-12), for editors and other checkers. */
-
 #include "app.h"
 #include "json.h"
 

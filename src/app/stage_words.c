@@ -1,5 +1,4 @@
 /* Names of stages, which logs and checkpoints keep short, in words for people who watch a run. */
-
 #include "app.h"
 
 static const struct {

@@ -1,4 +1,3 @@
-
 #include "kapitza/common.h"
 
 void kz_words_add(char *words, size_t bytes, const char *word) {

@@ -1,5 +1,4 @@
 /* Delivery of records of varying length to rank 0. */
-
 #include "kapitza/parallel.h"
 
 /* Receiver of messages, each the number of a tile and its record. */

@@ -1,5 +1,4 @@
 /* Records of varying length, which stay on the ranks that made them until they become messages for rank 0. */
-
 #include "watch.h"
 
 enum { TAG = 4, END = 5, BUFFERS = 4 };

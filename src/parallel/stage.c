@@ -1,5 +1,4 @@
 /* A stage: tiles are drawn, done, kept and delivered. */
-
 #include "bytes.h"
 #include "checkpoint.h"
 #include "dispatch.h"

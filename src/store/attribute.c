@@ -1,5 +1,4 @@
 /* Attributes of the root, of groups and of variables. */
-
 #include "store.h"
 
 kz_status kz_text_type(hid_t *type) {

@@ -1,5 +1,4 @@
 /* Datasets written chunk by chunk, packed by kz_pack_into. */
-
 #include "store.h"
 
 static const hsize_t PLAIN_BYTES = 16384, CHUNK_BYTES = 1 << 20;

@@ -1,4 +1,3 @@
-
 #include "store.h"
 
 enum { TEXT_BYTES = 512 };

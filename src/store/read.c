@@ -1,5 +1,4 @@
 /* Existing variables: numbers, rows, chunks, meanings of values. */
-
 #include "store.h"
 
 static hid_t open_dataset(kz_store *store, const char *group, const char *name) {

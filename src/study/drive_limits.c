@@ -1,5 +1,4 @@
 /* Table of all that does not take every drive, and the refusals by name (docs/reference/commands.md, Drives). */
-
 #include "stability/stability.h"
 #include "sweep/sweep.h"
 #include "kapitza/study_basin.h"

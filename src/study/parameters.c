@@ -1,4 +1,3 @@
-
 #include "kapitza/study.h"
 
 /* k = 1/Omega^2, beta = 1/(Omega Q), m = epsilon (BSG Eq. 2); no Q, no damping. */

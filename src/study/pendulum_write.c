@@ -1,5 +1,4 @@
 /* The group `pendulum` of the result file: the very numbers that were integrated, to which labels belong. */
-
 #include "variable_words.h"
 #include "kapitza/study.h"
 

@@ -1,5 +1,4 @@
 /* Whether the pendulum stays at rest, down and inverted, and which amplitudes of the pivot would change it. */
-
 #include "kapitza/study.h"
 
 /* Drives that are looked at; how often a change is looked for between two of them, and at how many drives. */

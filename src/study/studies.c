@@ -1,5 +1,4 @@
 /* The studies, one row each, in the order in which they run, and the groups of the result file. */
-
 #include "basin/basin.h"
 #include "sweep/sweep.h"
 

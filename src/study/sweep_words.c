@@ -1,5 +1,4 @@
 /* Measures that a sweep names: its own words, then those of its parts in the order of kz_studies. */
-
 #include "sweep/plan.h"
 
 static int64_t count_words(const char *words) {

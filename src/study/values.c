@@ -1,5 +1,4 @@
 /* The values of sweeps, along a line or over a plane: which keys they are of, and the pendulum at each. */
-
 #include "sweep/plan.h"
 
 /* Keys that change the motions of a pendulum. */

@@ -1,5 +1,4 @@
 /* Boundaries of basins in numbers: uncertain pairs, and boxes that hold several labels. */
-
 #include "kapitza/analysis.h"
 #include "kapitza/analysis_boundary.h"
 

@@ -1,5 +1,4 @@
 /* The command view: this process becomes the explorer. */
-
 #include "commands.h"
 #include "tools/package.h"
 

@@ -1,5 +1,4 @@
 /* The command where: where starts end, for people, as CSV or as JSON. */
-
 #include "commands.h"
 #include "json.h"
 #include "where.h"

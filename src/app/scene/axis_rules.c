@@ -1,4 +1,3 @@
-
 #include "rules.h"
 #include "kapitza/study_basin.h"
 

@@ -1,5 +1,4 @@
 /* Functions on a row of the table of keys. */
-
 #include "scene.h"
 
 enum { LONGEST_WORD = 63 };

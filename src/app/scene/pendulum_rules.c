@@ -1,5 +1,4 @@
 /* Rules of the mapping pendulum: keys that a laboratory's pendulum needs, and k, beta and m from them. */
-
 #include "rules.h"
 
 static bool is_given(double value) {

@@ -1,5 +1,4 @@
 /* Rules between keys, and values that follow from others. Each rule complains at the node that a user would change. */
-
 #include "rules.h"
 #include "kapitza/study_basin.h"
 #include "kapitza/study_orbit.h"

@@ -1,4 +1,3 @@
-
 #include "scene.h"
 
 void kz_tree_free(kz_node *root) {

@@ -1,5 +1,4 @@
 /* Types of numbers in docs/reference/scene.md: each defined once, linked from the rows of keys. */
-
 #include "scene.h"
 
 typedef struct {

@@ -1,5 +1,4 @@
 /* Units that a value may be written in: a small table, each row with the unit of the keys that take it. */
-
 #include "scene.h"
 
 typedef struct {

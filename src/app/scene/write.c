@@ -1,5 +1,4 @@
 /* Output of the table of keys: a scene as YAML, and the reference of all keys. */
-
 #include "scene.h"
 
 /* True where a mapping on the way to `key` is a study that the scene does not hold. */

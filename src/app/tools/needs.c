@@ -1,5 +1,4 @@
 /* The command needs: how large the amplitude of the pivot must be for a pendulum to stand upside down. */
-
 #include "commands.h"
 #include "json.h"
 #include "kapitza/study_flutter.h"

@@ -73,24 +73,19 @@ contains
     call append_known(d, found(2:1 + max(packed_cycle_size(d%search%max_period), packed_chaos_size())))
   end subroutine adopt
 
-  function packed_size(handle) bind(C, name='kz_dynamics_packed_size') result(n)
-    type(c_ptr), value :: handle
-    integer(c_int64_t) :: n
-    type(dynamics_t), pointer :: d
-
-    d => of_handle(handle)
-    n = size(packed(d%attractors))
-  end function packed_size
-
-  subroutine pack_catalogue(handle, n, flat) bind(C, name='kz_dynamics_pack')
+  function pack_catalogue(handle, n, flat) bind(C, name='kz_dynamics_pack') result(needed)
     type(c_ptr), value :: handle
     integer(c_int64_t), value :: n
     real(dp), intent(out) :: flat(n)
+    integer(c_int64_t) :: needed
     type(dynamics_t), pointer :: d
 
     d => of_handle(handle)
-    flat = packed(d%attractors)
-  end subroutine pack_catalogue
+    associate (all => packed(d%attractors))
+      needed = size(all)
+      if (needed <= n) flat(:needed) = all
+    end associate
+  end function pack_catalogue
 
   subroutine unpack_catalogue(handle, n, flat) bind(C, name='kz_dynamics_unpack')
     type(c_ptr), value :: handle

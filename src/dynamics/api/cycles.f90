@@ -1,6 +1,6 @@
 !> The C interface of dynamics: the cycle near a state (include/kapitza/dynamics_cycles.h).
 module kz_api_cycles
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_vector_map, only: flow_t, PI
   use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_model_pendulum, only: pendulum_t

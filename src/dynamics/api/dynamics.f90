@@ -1,6 +1,6 @@
 !> The C interface of dynamics: the handle (include/kapitza/dynamics.h).
 module kz_api_dynamics
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr, c_f_pointer, c_loc, c_null_ptr
+  use, intrinsic :: iso_c_binding, only: c_int64_t, c_ptr, c_f_pointer, c_loc, c_null_ptr
   use kz_attractors_cycle_search, only: search_t
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_ellipses, only: rings_t
@@ -10,7 +10,7 @@ module kz_api_dynamics
   use kz_vector_locks, only: create_lock, free_lock, take_lock, leave_lock
   use kz_labels_levels, only: levels_t
   use kz_labels_onset, only: onset_t
-  use kz_vector_map, only: flow_t, PI, WIDTH
+  use kz_vector_map, only: flow_t, WIDTH
   use kz_vector_step_table, only: numerics_t
   use kz_maps_map_table, only: table_t
   use kz_model_pendulum, only: pendulum_t

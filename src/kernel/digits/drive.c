@@ -1,5 +1,4 @@
 /* The series of the drive in any number of digits over the steps of a stretch, and the ramp of a release. */
-
 #include "step.h"
 
 /* Sets the span, up to the next strobe or the end of the ramp. */

@@ -4,7 +4,6 @@
  * With P1, P2, P3 the parts of a neighbour's angle by degree, g = along cos theta - across sin theta (series.c), and
  * w = along sin theta + across cos theta, the force, whose second derivative is -w:
  *   P2'' = -beta P2' - g P2 + w P1^2 / 2,   P3'' = -beta P3' - g P3 + w P1 P2 + g P1^3 / 6. */
-
 #include "step.h"
 
 typedef long double long_series[KZ_LONG_ORDERS];

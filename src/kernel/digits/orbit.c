@@ -1,5 +1,4 @@
 /* Orbits of any precision: memory of the series, steps halved until every series converges, whole periods. */
-
 #include "step.h"
 
 enum { FEWEST_STEPS = 14, HALVINGS = 10, SERIES = 11, COUNTS = 48 /* Characters of two integers */ };

@@ -1,6 +1,5 @@
 /* Advances sets through drive periods: sets of one class of speeds together, each in a lane of its own, so that its
  * result does not depend on the others. A set too fast for its class begins the period again in the next class. */
-
 #include "sets.h"
 
 enum { GROUP = KZ_PARTS * LANES, MOST_CLASSES = 64, BATCH = 4096 };

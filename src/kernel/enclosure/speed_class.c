@@ -1,6 +1,5 @@
 /* The step of a class of speeds, and its bounds (B3) .. (B6) of docs/explanation/bounds.md: Taylor's remainder by
  * majorants, rounding of the tangent map by the recurrences on bounds of sizes (centre: rounding.c). */
-
 #include "rounding.h"
 
 static const real MAJORANT_MARGIN = 1e-9L; /* Relative margin far above the rounding of the bounds */

@@ -1,7 +1,6 @@
 /* Ends of paths. With p = 0 the monodromy of Hamilton's flow is {{A, B}, {0, A^-T}}: an attractor's unstable plane is
  * (X p, p) with X = A X A^T + B A^T, the covariance of weak noise; a saddle's stable plane has its own stable
  * direction, and (x, q) with q A = mu q and (A - 1/mu) x = -B q. */
-
 #include "kapitza/kernel_paths.h"
 
 enum { MAX_ITERATIONS = 16 };

@@ -1,6 +1,5 @@
 /* Multiple shooting with a node a period. The equations M step = -F are solved by step = M^T y, (M M^T + shift) y = -F,
  * which is block tridiagonal: the least-norm step, and Levenberg's where that does not help. */
-
 #include "kapitza/kernel_paths.h"
 
 enum { MAX_ITERATIONS = 40, MAX_ALONG = 12, MAX_DESCENT = 6 };

@@ -1,5 +1,4 @@
 /* Discretised action: theta on a grid, fourth-order differences, an exact Hessian with nine diagonals. */
-
 #include "kapitza/kernel_paths.h"
 
 enum {

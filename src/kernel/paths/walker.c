@@ -1,7 +1,6 @@
 /* Motions under noise: half a drift, half a kick, friction and noise by their exact solution, and back (N.
  * Groenbech-Jensen, O. Farago, Mol. Phys. 111 (2013) 983). Random numbers are hashes of counters, so that a motion does
  * not depend on who follows it. */
-
 #include "kapitza/kernel_paths.h"
 
 uint64_t kz_path_hash(uint64_t seed,

@@ -1,5 +1,4 @@
 /* Flushing of subnormals, which are fifteen times slower on x86; orbits that decay onto an equilibrium end in them. */
-
 #include "kapitza/common_border.h"
 
 #ifdef __x86_64__

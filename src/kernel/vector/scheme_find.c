@@ -1,4 +1,3 @@
-
 #include "kapitza/kernel.h"
 
 int32_t kz_scheme_find(const char *name) {

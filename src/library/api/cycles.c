@@ -1,5 +1,4 @@
 /* Cycles and attractors, as lists for the caller. */
-
 #include "../library.h"
 #include "kapitza/dynamics_cycles.h"
 #include "kapitza/study_saddles.h"

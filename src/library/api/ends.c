@@ -1,5 +1,4 @@
 /* Where single starts end, with any number of digits; what an atlas says of its points. */
-
 #include "../library.h"
 
 /* ---- starts ---- */

@@ -1,5 +1,4 @@
 /* Frames and charts on request, shown in parts. */
-
 #include "../library.h"
 #include "kapitza/dynamics_ends.h"
 #include "kapitza/study_basin.h"

@@ -1,5 +1,4 @@
 /* Labels of starts, and of the cells of a window. */
-
 #include "../library.h"
 #include "kapitza/study_basin.h"
 

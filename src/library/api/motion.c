@@ -1,5 +1,4 @@
 /* Motions: the map of drive periods, orbits in continuous time, manifolds. */
-
 #include "../library.h"
 #include "kapitza/dynamics_saddles.h"
 #include "kapitza/study_orbit.h"

@@ -58,7 +58,7 @@ static kz_status reference_prepare(kz_reference_labels *reference, const kz_run 
   const kz_window window = kz_window_of(&reference->plan->theta, &reference->plan->velocity);
   KZ_TRY(kz_ranks_agree(run->ranks, find_attractors(reference, run, dynamics)));
   reference->max_velocity = kz_dynamics_max_velocity(dynamics, &window);
-  reference->packed_size = kz_dynamics_packed_size(dynamics);
+  reference->packed_size = kz_dynamics_pack(dynamics, 0, NULL);
   reference->packed = kz_malloc((size_t)reference->packed_size * sizeof(double));
   reference->labels = kz_calloc((size_t)reference->samples + 1, sizeof *reference->labels);
   kz_dynamics_pack(dynamics, reference->packed_size, reference->packed);

@@ -1,5 +1,4 @@
 /* The table of settings, and one setting measured: its dynamics, labels of the sampled cells, time. */
-
 #include "accuracy.h"
 #include "labelling/search.h"
 #include "cells/cell_starts.h"

@@ -1,5 +1,4 @@
 /* The arrangement of the curves: which attractors a place has, by counting crossings of its column from below. */
-
 #include "lines.h"
 #include "curves.h"
 #include "cycles.h"

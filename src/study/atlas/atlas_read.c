@@ -1,5 +1,4 @@
 /* An atlas from its result file: the curves, and what attracts at one place. */
-
 #include "curves.h"
 #include "cycles.h"
 #include "regions.h"

@@ -1,6 +1,5 @@
 /* Narrow bands of attractors: a cycle is born on one curve and loses its stability on another one close by. Where one
  * of the two is missing, the other one would begin or end an attractor in all of the plane. */
-
 #include "lines.h"
 
 /* Sides of the plane: narrowest band with one edge; largest distance of edges in widths; error of a crossing. */

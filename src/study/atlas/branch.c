@@ -1,5 +1,4 @@
 /* A branch of cycles as users see it: values of the key, a strobe point, multipliers. */
-
 #include "cycles.h"
 #include "branch.h"
 

@@ -1,6 +1,5 @@
 /* The census: all cycles of places, attracting or not, each followed to the first curve that it meets. A cycle exists
  * in far more of the plane than it attracts in, so that bands are seen that starts hardly ever reach. */
-
 #include "lines.h"
 #include "curves.h"
 #include "cycles.h"

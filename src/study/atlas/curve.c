@@ -1,5 +1,4 @@
 /* Curves: traced to both ends, known by a signature. */
-
 #include "curves.h"
 #include "cycles.h"
 

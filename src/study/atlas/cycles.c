@@ -1,5 +1,4 @@
 /* Cycles and points of curves in one canonical form, and the classes of attractors. */
-
 #include "cycles.h"
 
 /* rad: two states nearer than this are one; a cycle this near to rest is rest. */

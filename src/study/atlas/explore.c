@@ -1,5 +1,4 @@
 /* Where other curves begin: what branches of cycles meet along both axes, and along lines through the whole plane. */
-
 #include "lines.h"
 #include "curves.h"
 #include "cycles.h"

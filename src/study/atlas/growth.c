@@ -1,5 +1,4 @@
 /* Curves from seeds: they are traced and explored until nothing new is met. */
-
 #include "curves.h"
 #include "cycles.h"
 #include "seeds.h"

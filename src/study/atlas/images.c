@@ -1,5 +1,4 @@
 /* A plane with k and -k: each curve has an image there, which shows whether one is missing. */
-
 #include "lines.h"
 #include "cycles.h"
 #include "seeds.h"

@@ -1,5 +1,4 @@
 /* Motions of a point: listed by counting crossings of its column; states carried from where they begin or end. */
-
 #include "lines.h"
 #include "cycles.h"
 #include "seeds.h"

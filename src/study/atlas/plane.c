@@ -1,5 +1,4 @@
 /* The plane of an atlas: places, their pendulums, what the plane has in common. */
-
 #include "curves.h"
 #include "cycles.h"
 

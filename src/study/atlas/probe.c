@@ -1,5 +1,4 @@
 /* The attractors of a place: those that starts end on, as cycles of the atlas. */
-
 #include "labelling/search.h"
 #include "numerics/cells.h"
 #include "numerics/steps.h"

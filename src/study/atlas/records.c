@@ -1,5 +1,4 @@
 /* Records of varying length: curves and seeds, gathered on all ranks in the order of their tiles. */
-
 #include "curves.h"
 #include "records.h"
 

@@ -1,5 +1,4 @@
 /* The raster of an atlas: the list of attractors of every cell, and the regions with one list. */
-
 #include "lines.h"
 #include "cycles.h"
 #include "regions.h"

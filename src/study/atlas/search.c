@@ -1,5 +1,4 @@
 /* Search for all curves: from cycles of places, and attractors not explained, until random places agree. */
-
 #include "numerics/share.h"
 #include "lines.h"
 #include "curves.h"

@@ -1,5 +1,4 @@
 /* Study `attractors`: the catalogue of a window of starts, without a grid. */
-
 #include "labelling/catalogue.h"
 #include "cells/scene_search.h"
 #include "numerics/cells.h"

@@ -3,7 +3,6 @@
  * scene -> discovery -> trapping regions -> map table -> tiles of cells -> (cells that ended nowhere known feed another
  * round) -> ids, measures and chunks of the file, tile by tile. A window that is its own mirror image needs half the
  * cells: cell f mirrors cell n - 1 - f. */
-
 #include "accuracy/accuracy.h"
 #include "basin.h"
 #include "cells/scene_search.h"

@@ -1,5 +1,4 @@
 /* Study `basin`: measures of the labelled grid, its groups in the file, its summary. */
-
 #include "basin.h"
 
 enum { MOST_FLAGS = 16000 }; /* an attribute of numbers holds 64 KiB */

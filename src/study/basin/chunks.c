@@ -1,6 +1,5 @@
 /* From labels to the file: each rank turns its tiles, and those that mirror them, into ids, counts them and packs them;
  * rank 0 writes the chunks as they come. */
-
 #include "basin.h"
 
 enum { OTHER = 3, TURNS = 4, VARIABLES = 5 };

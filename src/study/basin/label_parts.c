@@ -1,5 +1,4 @@
 /* The labeller of a window, and packing a whole tile. */
-
 #include "label.h"
 
 /* Bytes between members would be anything, and packed as such: it took a tenth of the time of a window. */

@@ -1,5 +1,4 @@
 /* How long the transients of a window last. */
-
 #include "basin.h"
 
 enum {

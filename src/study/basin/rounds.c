@@ -1,5 +1,4 @@
 /* The attractors of a window, then the labels of its cells, tile by tile. */
-
 #include "numerics/step_check.h"
 #include "label.h"
 #include "kapitza/dynamics_steps.h"

@@ -1,5 +1,4 @@
 /* Measures of how fractal the boundaries of a basin are: pairs of starts, boxes of cells. */
-
 #include "boundary.h"
 
 enum {

@@ -1,5 +1,4 @@
 /* Study `escape`: each attractor with each saddle to which a path is sought is a tile. */
-
 #include "cells/scene_search.h"
 #include "counted.h"
 #include "report.h"

@@ -1,5 +1,4 @@
 /* Cycles as ends of paths, and guesses between them: the attractor's motion blended into the saddle's. */
-
 #include "guide.h"
 
 /* Points a period of the discretised action, and steps of the flow for each, of a pendulum with small forces. */

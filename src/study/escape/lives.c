@@ -1,5 +1,4 @@
 /* From paths to lives: mirror images, ways out of each attractor, islands. */
-
 #include "report.h"
 
 /* rad: distance from a saddle at which the side of a path is seen, and that of the states that are released. */

@@ -1,5 +1,4 @@
 /* The search for the least path between two cycles, from many guesses. */
-
 #include "guide.h"
 
 /* Periods of a path: fewest and most; more when its ends are finished. */

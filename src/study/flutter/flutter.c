@@ -1,6 +1,5 @@
 /* Drives of a sine between which flutter attracts: the inverted state and its daughters, followed to stronger
  * drives. */
-
 #include "kapitza/study_flutter.h"
 #include "sweep/sweep.h"
 

@@ -1,5 +1,4 @@
 /* Rounds of search and labels: items that ended on nothing known lead to further attractors. */
-
 #include "labeller.h"
 #include "search.h"
 

@@ -1,5 +1,4 @@
 /* A frame raster by raster, coarse ones first: pending cells are followed in tiles, then the raster is shown. */
-
 #include "live.h"
 #include "numerics/cells.h"
 

@@ -1,5 +1,4 @@
 /* Records of motions on request. */
-
 #include "kapitza/study_live.h"
 #include "orbit/orbit.h"
 

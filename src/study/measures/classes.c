@@ -1,5 +1,4 @@
 /* Attractors of neighbouring points joined by continuation. */
-
 #include "points.h"
 
 enum { RIGHT, ABOVE, WAYS };

@@ -1,7 +1,6 @@
 /* Measures of how intricate the boundaries in the picture are: entropy (A. Daza et al., Sci. Rep. 6 (2016) 31416),
  * uncertainty exponent and dimension (C. Grebogi et al., Phys. Lett. A 99 (1983) 415), boundaries that basins share (A.
  * Daza et al., Sci. Rep. 8 (2018) 9954). */
-
 #include "kapitza/analysis_boundary.h"
 #include "measures.h"
 

@@ -1,6 +1,5 @@
 /* Integrity of basins (M. S. Soliman, J. M. T. Thompson, J. Sound Vib. 135 (1989) 453; G. Rega, S. Lenci, Nonlinear
  * Anal. 63 (2005) 902), from the picture, in the norm hypot(dtheta, dvelocity / shock_scale). */
-
 #include "measures.h"
 #include "picture.h"
 

@@ -1,7 +1,6 @@
 /* Measures of a motion itself and of the linear motion near it: mean velocity; return time by Floquet's multipliers,
  * growth of small disturbances by singular values of the map's derivatives, in the norm hypot(dtheta, dvelocity /
  * shock_scale). */
-
 #include "measures.h"
 
 /* The largest singular value of a matrix of 2 x 2 in that norm. */

@@ -1,5 +1,4 @@
 /* Properties of a pendulum: attractors, labelled starts and picture, map derivatives, shocks; made if needed. */
-
 #include "measures.h"
 
 enum {

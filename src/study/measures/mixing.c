@@ -1,7 +1,6 @@
 /* Intermingledness of the basins (Attractors.jl, function intermingledness): the mean distance of two starts of the
  * same basin, over that of a start of it and one of another basin. 1 = as near to each other as to the others.
  * Distances have the norm hypot(dtheta, dvelocity / shock_scale), with dtheta around the circle. */
-
 #include "measures.h"
 
 /* mean [attractors][attractors] of the distances. */

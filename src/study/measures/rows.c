@@ -1,5 +1,4 @@
 /* The table of measures as rows, and what follows from them. */
-
 #include "measures.h"
 #include "kapitza/study_keys.h"
 #include "sweep/plan.h"

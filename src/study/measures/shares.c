@@ -1,5 +1,4 @@
 /* Measures of starts: shares with their intervals, and settling times. */
-
 #include "measures.h"
 #include "numerics/share.h"
 

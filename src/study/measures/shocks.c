@@ -1,6 +1,5 @@
 /* Measures of sudden changes of the state: the smallest that leave the basin, over all strobe points of an attractor,
  * and how many of a size do not (src/study/resilience). */
-
 #include "measures.h"
 
 /* The smallest shock of a kind: 0 of the angle, 1 of the velocity, 2 of both. */

@@ -1,4 +1,3 @@
-
 #include "parent.h"
 
 /* Largest distance from a curve at which a branch begins: in sides of the plane; in rad; where the multiplier -1 has

@@ -1,6 +1,5 @@
 /* How long motions take to settle. Damping shrinks areas by e in 1/(2 pi beta) periods, its lifetime; the weaker it is,
  * the smaller are the trapping regions and the more lifetimes it takes to get there. */
-
 #include "kapitza/study_basin.h"
 #include "sweep/plan.h"
 

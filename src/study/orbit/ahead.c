@@ -1,5 +1,4 @@
 /* How a motion of the pendulum goes on: its largest Lyapunov exponent, and the attractor that it settles on. */
-
 #include "labelling/search.h"
 #include "orbit.h"
 

@@ -1,5 +1,4 @@
 /* Features of an orbit: centre, period, winding, lines, turning points. */
-
 #include "kapitza/dynamics_cycles.h"
 #include "orbit.h"
 

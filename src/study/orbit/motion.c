@@ -1,5 +1,4 @@
 /* Motions of the three models through one interface. */
-
 #include "numerics/resolve.h"
 #include "orbit.h"
 

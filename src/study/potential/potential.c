@@ -1,5 +1,4 @@
 /* Study `potential`. One rank does it all: at most some hundred curves in closed form. */
-
 #include "plan.h"
 
 static const char *const GROUP = "potential";

@@ -2,7 +2,6 @@
  * of two doubles and at last of three. The starts are the cells - of some tiles at a time, so that what all ranks know
  * of them stays small - and random real starts of the window, which bound the share of its area that may end elsewhere
  * than on attractors that are proved. */
-
 #include "proof.h"
 
 enum {

@@ -1,5 +1,4 @@
 /* The part `proof` of the study basin, and what it writes. */
-
 #include "proof.h"
 
 kz_status kz_proof_check(const kz_scene *scene) {

@@ -1,6 +1,5 @@
 /* The region of a proof. First the ellipses of all attractors; then rounds in which every open cell of a grid is
  * followed into the region of the round before: the result does not depend on who follows which. */
-
 #include "proof.h"
 
 enum { COLUMNS = 250, MOST_ROWS = 8000 };

@@ -1,5 +1,4 @@
 /* Limits of releases: the table of studies and keys that refuse one, by name. */
-
 #include "kapitza/study_orbit.h"
 #include "release.h"
 

@@ -1,5 +1,4 @@
 /* The smallest shocks that leave the basins: the file's group /shocks, and its part of the summary. */
-
 #include "basin/basin.h"
 #include "resilience.h"
 

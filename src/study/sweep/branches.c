@@ -1,7 +1,6 @@
 /* Catalogues of neighbouring values joined into branches. Every cycle of a value is followed to the next one,
  * attracting or not, through folds, with what branches off; where it arrives, it is the same branch, whether the search
  * there had found it or not. Rounds of walks, spread over the run, until nothing is left to walk. */
-
 #include "sweep.h"
 
 enum { MOST_MAPS = 256 }; /* largest number of values whose maps are kept, 50 KiB each */

@@ -1,5 +1,4 @@
 /* Branches of a sweep into the file, and a table of them for people. */
-
 #include "numerics/share.h"
 #include "sweep.h"
 

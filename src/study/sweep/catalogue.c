@@ -1,6 +1,5 @@
 /* The attractors at each value of a sweep, and the share of the starts or of the cells that each takes. A value may
  * take long: all ranks work on it together, and finished work is kept. */
-
 #include "labelling/catalogue.h"
 #include "numerics/cells.h"
 #include "cells/scene_search.h"

@@ -1,5 +1,4 @@
 /* The path of a sweep; a point of a branch beside another one. */
-
 #include "sweep.h"
 
 static bool pendulum_of_scene(const void *context, double value, kz_pendulum *pendulum) {

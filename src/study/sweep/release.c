@@ -1,5 +1,4 @@
 /* Releases from rest: how far from inverted the pendulum may be let go and still stay there. */
-
 #include "sweep.h"
 
 enum {

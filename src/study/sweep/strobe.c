@@ -1,6 +1,5 @@
 /* Bifurcation diagram: the strobe points after a transient, once with the values going up and once down. Each walk
  * carries its state from value to value, so that it shows where attractors are lost and not found again. */
-
 #include "sweep.h"
 
 enum { WALKS = 2 };

@@ -1,5 +1,4 @@
 /* Whether the steps are fine enough for a sweep: some of its values are tried. */
-
 #include "numerics/cells.h"
 #include "numerics/step_check.h"
 #include "sweep.h"

@@ -1,5 +1,4 @@
 /* One cycle carried along a parameter, with its events: the continuation of the atlas in one key. */
-
 #include "numerics/parent.h"
 #include "sweep.h"
 

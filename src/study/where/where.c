@@ -1,5 +1,4 @@
 /* Ends of starts: the catalogue of the window, then each start in as much precision as needed. One rank. */
-
 #include "numerics/cells.h"
 #include "cells/scene_search.h"
 #include "where.h"

@@ -1,5 +1,4 @@
 /* Chooses the period where per-cell integration starts: the last image as accurate as the arithmetic after it. */
-
 #include "window.h"
 
 /* rad: images that are wider are bent too much for any estimate of the fourth degree. */

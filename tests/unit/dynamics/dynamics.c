@@ -84,7 +84,7 @@ TEST(test_regions_know_no_order) {
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
   kz_dynamics *a = explored_with(fine_numerics(), 0.3, 1, CELLS, 3),
               *b = kz_dynamics_create(&pendulum, fine_numerics(), 12);
-  const int64_t size = kz_dynamics_packed_size(a);
+  const int64_t size = kz_dynamics_pack(a, 0, NULL);
   double *packed = malloc((size_t)size * sizeof *packed), *x = malloc(2 * N * sizeof *x);
   int32_t *label_a = malloc(N * sizeof *label_a), *label_b = malloc(N * sizeof *label_b), trapped = 0;
   int64_t *periods = malloc(N * sizeof *periods);

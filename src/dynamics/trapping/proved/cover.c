@@ -1,7 +1,6 @@
 /* Cells that a parallelogram meets. Rounding moves its corners by some 1e-11 cells, and a place on an edge by at most
  * the length of the edge over its rise, below LARGEST / FLAT, times the last place of a row's number, 1e-12: SLACK is
  * more. */
-
 #include "proof.h"
 
 static const double SLACK = 1e-5, FLAT = 1e-3, LARGEST = 100; /* cells; LARGEST: of an image, from its centre */

@@ -1,5 +1,4 @@
 /* Place of a proved cycle and its multipliers, from the smallest trapping ellipse around its first strobe point. */
-
 #include "proof.h"
 
 static const double ROUNDING =

@@ -5,7 +5,6 @@
  *   r^-1 M^-1 (F - centre) = d + B z(y),  |z[i] - y[i]| <= reach[i] - 1,  |dz/dy - 1| <= jacobian_error.
  * |d| + |B| + |B (reach - 1)| < 1: F(E) lies inside E. |B| + |B jacobian_error| < 1: F contracts E in this norm, for E
  * is convex. So E holds exactly one fixed point of F, and every start in E ends on its cycle (Banach). */
-
 #include "proof.h"
 
 static const double LARGEST = 1, SMALLEST = 1e-5,

@@ -1,5 +1,4 @@
 /* Sets that are followed, period by period, until the region of one attractor holds them: single starts, and cells. */
-
 #include "proof.h"
 
 /* Starts and cells under way: many, so that those of a class of speeds fill the lanes; periods of a cell. */

@@ -1,5 +1,4 @@
 /* The grid of a proof: cells of the strobe plane, each open or proved to end on an attractor. */
-
 #include "proof.h"
 
 kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t rows, double top, double fastest,
