@@ -24,8 +24,8 @@ static inline void kz_hamilton_freed(kz_hamilton **flow) {
  * start, row by row; integral [n][4]: action, and its derivatives by p, q and beta along the path. */
 void kz_hamilton_advance(const kz_hamilton *flow, int64_t n, double *state, int32_t with_tangent, double *tangent,
                          int32_t with_integral, double *integral);
-/* Fills sample [samples][4], the state after each equal part of a period; `samples` divides the number of steps. */
-void kz_hamilton_sample(const kz_hamilton *flow, int32_t samples, const double *state, double *sample);
+/* Fills sample [n][samples][4], n states after each equal part of a period; `samples` divides the number of steps. */
+void kz_hamilton_sample(const kz_hamilton *flow, int32_t samples, int64_t n, const double *state, double *sample);
 
 /* A strobe point of a cycle, p = 0, and the plane in which paths leave or approach it. */
 typedef struct {
@@ -56,11 +56,17 @@ typedef struct {
 } kz_path;
 
 /* Newton's method for the least discretised action near a guess: theta [n samples + 1], of which the first and the last
- * four stay. Returns the action; INFINITY where it finds no minimum, and where it gives up because the action stays far
- * above `most`. node [n + 1][4]: the states at strobes, for kz_path_polish. */
+ * four stay. Returns the action; INFINITY where it finds no minimum, and where it gives up because that will have an
+ * action above `most`. node [n + 1][4]: the states at strobes, for kz_path_polish. */
 double kz_path_relax(const kz_pendulum *pendulum, int64_t n, int32_t samples, double most, double *theta, double *node);
 /* Newton's method by multiple shooting, in least-norm steps: time shifts are almost free. False if not converged. */
 bool kz_path_polish(const kz_hamilton *flow, const kz_path_end *from, const kz_path_end *to, kz_path *path);
+/* One step of Newton's method for a path and the parameter of its pendulum together, for folds, beyond which the path
+ * does not exist. Flows and ends: at the parameter's value, and at one that is larger by `apart`. Path and parameter
+ * move least. Returns the step of the parameter, NaN where there is none; path->mismatch is the largest jump before it.
+ */
+double kz_path_turn(const kz_hamilton *const flow[2], const kz_path_end *const from[2], const kz_path_end *const to[2],
+                    double apart, kz_path *path);
 /* Adds `cycles` [2] cycles of each end to the path, along its planes. The node moves to other memory of kz_realloc. */
 void kz_path_lengthen(const kz_hamilton *flow, const kz_path_end *from, const kz_path_end *to, const int64_t cycles[2],
                       kz_path *path);

@@ -38,6 +38,7 @@ _ERRORS: _Row = ("", "stability", ["--view", "errors"])
 _ENDS: _Row = ("", "plane", [])
 _POTENTIAL: _Row = ("", "potential", [])
 _ESCAPE: _Row = ("", "escape", ["--attractor", "inverted"])
+_BARRIER: _Row = ("", "escape", ["--view", "barrier"])
 _TRADE: _Row = ("", "tradeoff", [])
 _PROVED: _Row = ("", "basin", ["--quantity", "evidence"])
 
@@ -92,6 +93,7 @@ _SCENES = {
     "chart-blackburn": [_ENDS],
     "chart-butikov": [_ENDS],
     "escape-fig12": [_ESCAPE],
+    "escape-line": [_BARRIER],
     "formula-errors": [_ERRORS],
     "josephson": [_SWEEP],
     "laboratory": [_LABORATORY],

@@ -194,6 +194,14 @@ def written_frequency(pendulum: Mapping[str, Any]) -> float | None:
     return None
 
 
+def energy_unit(pendulum: Mapping[str, Any]) -> float | None:
+    """I omega^2 in J, the unit of actions and torques, of a pendulum with a mass in SI units; None of others."""
+    arm = pendulum.get("radius", pendulum.get("length", math.nan))
+    inertia = pendulum.get("inertia", pendulum.get("mass", math.nan) * arm**2)
+    unit = float(inertia) * float(pendulum.get("pivot_frequency", math.nan)) ** 2
+    return unit if math.isfinite(unit) else None
+
+
 def length_text(metres: float) -> str:
     """A length in the largest unit of which it is at least one: 20 cm."""
     unit = next((unit for unit, factor in LENGTHS.items() if abs(metres) >= factor * (1 - 1e-9)), "um")

@@ -9,7 +9,7 @@ import numpy as np
 import pandas
 import xarray
 
-from kapitza import style
+from kapitza import style, units
 from kapitza.result import Result
 from kapitza.scene import flow
 
@@ -23,7 +23,8 @@ _COLUMNS = ("from", "into", "saddle", "barrier", "largest_torque", "barrier_by_k
 
 
 class WaysOut:
-    """Paths of least action of a pendulum. Actions and torques are in units of I omega^2.
+    """Paths of least action of a pendulum. Actions and torques are in units of I omega^2; of a pendulum in SI units
+    with a mass also in J and N m.
 
     :ivar result: the result with the groups attractors, saddles and escape
     """
@@ -35,6 +36,13 @@ class WaysOut:
         self.result = Result(path)
         self.names = style.names_with_ids(self.result.group("attractors")["name"].values)
 
+    def _with_si(self, rows: pandas.DataFrame) -> pandas.DataFrame:
+        unit = units.energy_unit(self.result.pendulum)
+        if unit is not None:
+            rows["barrier_J"] = rows["barrier"] * unit
+            rows["largest_torque_Nm"] = rows["largest_torque"] * unit
+        return rows
+
     @property
     def table(self) -> pandas.DataFrame:
         """A row for each path: names of the motions that it leaves and reaches, id of the saddle, `barrier`, slopes of
@@ -45,19 +53,21 @@ class WaysOut:
         for column in ("from", "into"):
             rows[column] = [self.names[number] if number >= 0 else "none" for number in rows[column]]
         rows.insert(3, "saddle_name", [style.name_text(saddles[number]) for number in rows["saddle"]])
-        return rows.astype({"is_gate": bool, "agrees": bool}).sort_values("barrier")
+        return self._with_si(rows.astype({"is_gate": bool, "agrees": bool}).sort_values("barrier"))
 
     @property
     def barriers(self) -> pandas.DataFrame:
-        """For each motion that is left: `barrier` out of its basin, `life_exponent`, the `island` on the way, the
-        `route`."""
+        """For each motion that is left: `barrier` out of its basin, `largest_torque`, `life_exponent`, the `island` on
+        the way, the `route`."""
         escape = self.result.group("escape")
+        torque = np.append(escape["largest_torque"].values, np.nan)  # the last for those without a route, -1
         rows = pandas.DataFrame({"barrier": escape["barrier_out"].values,
+                                 "largest_torque": torque[escape["way_out"].values],
                                  "life_exponent": escape["life_exponent"].values,
                                  "island": [self.names[number] if number >= 0 else ""
                                             for number in escape["island"].values],
                                  "route": escape["way_out"].values}, index=pandas.Index(self.names, name="attractor"))
-        return rows[rows["route"] >= 0]
+        return self._with_si(rows[rows["route"] >= 0].copy())
 
     @property
     def matrix(self) -> pandas.DataFrame:
@@ -69,6 +79,15 @@ class WaysOut:
         if "barrier_into" not in escape:
             raise ValueError("paths out of basins only were sought; give into_every_basin=True")
         return pandas.DataFrame(escape["barrier_into"].values, index=self.names, columns=self.names)
+
+    @property
+    def chains(self) -> pandas.DataFrame:
+        """The matrix with detours over other attractors, where that costs less: the sum of the barriers on the way."""
+        costs = self.matrix.fillna(np.inf)
+        for middle in self.names:
+            costs = np.minimum(costs, costs[[middle]].to_numpy() + costs.loc[[middle]].to_numpy())
+        np.fill_diagonal(costs.values, np.diag(self.matrix))
+        return costs.replace(np.inf, np.nan)
 
     @property
     def lives(self) -> pandas.DataFrame:
@@ -84,7 +103,7 @@ class WaysOut:
         return rows[rows["life_ended"] > 0].reset_index(drop=True)
 
     def path(self, route: int) -> xarray.Dataset:
-        """theta (rad, not wrapped), velocity and torque over time (drive periods) of a path.
+        """theta (rad, not wrapped), velocity and torque over time (drive periods) of a path; in SI units torque_Nm too.
 
         :raises ValueError: if the path is not among those of least action
         """
@@ -94,6 +113,9 @@ class WaysOut:
         if points.sizes["point"] == 0:
             raise ValueError(f"path {route} is not the least into any basin; those are "
                              f"{sorted(set(escape['path'].values.tolist()))}")
+        unit = units.energy_unit(self.result.pendulum)
+        if unit is not None:
+            points = points.assign(torque_Nm=points["torque"] * unit)
         return points.swap_dims(point="time").reset_coords("point", drop=True).assign_attrs(
             action=float(escape["barrier"].values[route]))
 

@@ -164,21 +164,26 @@ contains
   end subroutine hamilton_advance
 
   !> kz_hamilton_sample of kernel_paths.h.
-  subroutine hamilton_sample(handle, samples, state, sample) bind(C, name='kz_hamilton_sample')
+  subroutine hamilton_sample(handle, samples, n, state, sample) bind(C, name='kz_hamilton_sample')
     type(c_ptr), value :: handle
     integer(c_int32_t), value :: samples
-    real(rk), intent(in) :: state(4)
-    real(rk), intent(out) :: sample(4, samples)
+    integer(c_int64_t), value :: n
+    real(rk), intent(in) :: state(4, n)
+    real(rk), intent(out) :: sample(4, samples, n)
     type(hamilton_t), pointer :: flow
     type(lanes_t) :: lanes
+    integer(c_int64_t) :: first, last
     integer :: i, steps
 
     call c_f_pointer(handle, flow)
     steps = flow%n_steps/samples
-    call put(reshape(state, [4, 1]), lanes)
-    do i = 1, samples
-      call advance(flow, (i - 1)*steps + 1, i*steps, .false., .false., lanes)
-      sample(:, i) = lanes%state(1, :)
+    do first = 1, n, N_LANES
+      last = min(n, first + N_LANES - 1)
+      call put(state(:, first:last), lanes)
+      do i = 1, samples
+        call advance(flow, (i - 1)*steps + 1, i*steps, .false., .false., lanes)
+        sample(:, i, first:last) = transpose(lanes%state(:last - first + 1, :))
+      end do
     end do
   end subroutine hamilton_sample
 

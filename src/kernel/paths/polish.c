@@ -21,6 +21,8 @@ typedef struct {
   block *tangent; /* [n] */
   block *pivot, *below;
   double *y, *step, *next; /* next [n + 1][4] */
+  double *column;          /* [n][4] derivative of the jumps by a parameter, which then moves too; NULL = none */
+  double along;            /* step of that parameter */
 } shooting;
 
 static void shooting_free(shooting *s) {
@@ -122,29 +124,49 @@ static void solve_upper(const block a, double x[4]) {
   }
 }
 
-/* y from (M M^T + shift) y = -F, in the place of the blocks. */
-static bool polish_solve(shooting *s, double shift) {
+/* Factors M M^T + shift in the place of the blocks. */
+static bool polish_factorise_all(shooting *s, double shift) {
   for (int64_t i = 0; i < s->n; i++) {
-    double *y = s->y + 4 * i;
-    for (int j = 0; j < 4; j++) {
-      s->pivot[i][j][j] += shift;
-      y[j] = -s->jump[4 * i + j];
-    }
+    for (int j = 0; j < 4; j++) s->pivot[i][j][j] += shift;
     for (int j = 0; i > 0 && j < 4; j++) solve_lower(s->pivot[i - 1], s->below[i][j]);
     for (int j = 0; i > 0 && j < 4; j++)
-      for (int k = 0; k < 4; k++) {
-        y[j] -= s->below[i][j][k] * y[k - 4];
+      for (int k = 0; k < 4; k++)
         for (int l = 0; l < 4; l++) s->pivot[i][j][k] -= s->below[i][j][l] * s->below[i][k][l];
-      }
     if (!polish_factorise(s->pivot[i])) return false;
-    solve_lower(s->pivot[i], y);
+  }
+  return true;
+}
+
+/* Solves (M M^T + shift) y = y. */
+static void polish_substitute(const shooting *s, double *y) {
+  for (int64_t i = 0; i < s->n; i++) {
+    for (int j = 0; i > 0 && j < 4; j++)
+      for (int k = 0; k < 4; k++) y[4 * i + j] -= s->below[i][j][k] * y[4 * (i - 1) + k];
+    solve_lower(s->pivot[i], y + 4 * i);
   }
   for (int64_t i = s->n - 1; i >= 0; i--) {
-    double *y = s->y + 4 * i;
     for (int j = 0; i + 1 < s->n && j < 4; j++)
-      for (int k = 0; k < 4; k++) y[j] -= s->below[i + 1][k][j] * y[4 + k];
-    solve_upper(s->pivot[i], y);
+      for (int k = 0; k < 4; k++) y[4 * i + j] -= s->below[i + 1][k][j] * y[4 * (i + 1) + k];
+    solve_upper(s->pivot[i], y + 4 * i);
   }
+}
+
+/* y from (M M^T + shift) y = -F; with a column c from (M M^T + c c^T + shift) y = -F, by Sherman and Morrison's
+ * formula. */
+static bool polish_solve(shooting *s, double shift) {
+  if (!polish_factorise_all(s, shift)) return false;
+  for (int64_t i = 0; i < 4 * s->n; i++) s->y[i] = -s->jump[i];
+  polish_substitute(s, s->y);
+  if (!s->column) return true;
+  double *moved = s->step, own = 1, side = 0;
+  memcpy(moved, s->column, (size_t)(4 * s->n) * sizeof *moved);
+  polish_substitute(s, moved);
+  for (int64_t i = 0; i < 4 * s->n; i++) {
+    own += s->column[i] * moved[i];
+    side += s->column[i] * s->y[i];
+  }
+  s->along = side / own;
+  for (int64_t i = 0; i < 4 * s->n; i++) s->y[i] -= s->along * moved[i];
   return true;
 }
 
@@ -237,7 +259,7 @@ static void node_at(const kz_path_end *end, double turns, const double c[2], dou
 }
 
 /* Puts the first and the last node into their planes, as near as possible to where they are. */
-static void put_on_planes(const kz_path_end *end[2], kz_path *path) {
+static void put_on_planes(const kz_path_end *const end[2], kz_path *path) {
   for (int side = 0; side < 2; side++) {
     double *z = path->node + (side ? 4 * path->n : 0), c[2];
     coordinates_of(end[side], path->turns[side], z, c);
@@ -279,6 +301,28 @@ bool kz_path_polish(const kz_hamilton *flow, const kz_path_end *from, const kz_p
   if (!(path->mismatch < CLOSED)) return false;
   polish_measure(flow, s.end, &s, path);
   return true;
+}
+
+double kz_path_turn(const kz_hamilton *const flow[2], const kz_path_end *const from[2], const kz_path_end *const to[2],
+                    double apart, kz_path *path) {
+  KZ_AUTOFREE_BY(shooting_free) shooting s = shooting_of(path->n, from[0], to[0]);
+  const size_t bytes = (size_t)(4 * (path->n + 1)) * sizeof *path->node;
+  KZ_AUTOFREE double *column = kz_malloc(bytes);
+  KZ_AUTOFREE double *node = kz_malloc(bytes);
+  put_on_planes(s.end, path);
+  memcpy(node, path->node, bytes);
+  const kz_path_end *beside[2] = {from[1], to[1]};
+  put_on_planes(beside, path);
+  polish_shoot(flow[1], path->node, &s);
+  memcpy(column, s.jump, bytes - 4 * sizeof *node);
+  memcpy(path->node, node, bytes);
+  path->mismatch = polish_shoot(flow[0], path->node, &s);
+  for (int64_t i = 0; i < 4 * s.n; i++) column[i] = (column[i] - s.jump[i]) / apart;
+  s.column = column;
+  const double length = polish_propose(path->node, LEAST_SHIFT, &s);
+  if (isinf(length)) return NAN;
+  polish_accept(path->node, &s);
+  return s.along * fmin(1, LONGEST / length);
 }
 
 /* The node a cycle away from z, nearer to the end, which is then moved by `next` turns. */

@@ -5,16 +5,18 @@ enum {
   BAND = 4,             /* diagonals of the Hessian on each side */
   FIXED = 4,            /* points at each end that stay */
   MAX_ITERATIONS = 150, /* Newton iterations */
-  PATIENCE = 25,        /* iterations after which a search is given up whose action is far too large */
+  PATIENCE = 6,         /* iterations after which a search is given up that leads to more than `most` */
   MAX_SHIFTS = 60       /* shifts of the Hessian before a step is given up */
 };
-/* Relative decrease of the action that ends the search; its excess then; first and smallest shift of the Hessian. */
-static const double ENOUGH = 1e-10, FAR_TOO_LARGE = 4, FIRST_SHIFT = 1e-3, LEAST_SHIFT = 1e-12;
+/* Relative decrease of the action at which the search ends; decreases like the last one that are foreseen; first shift
+ * of the Hessian, and the smallest. */
+static const double ENOUGH = 1e-7, FORESEEN = 10, FIRST_SHIFT = 1e-3, LEAST_SHIFT = 1e-12;
 
 typedef struct {
   int64_t n; /* intervals */
   int32_t samples;
   double h, beta;
+  double (*pull)[2]; /* [n + 1] the force at each point of the last action_of, and its derivative by the angle */
   double second[5], first[5]; /* weights of the differences */
   const double (*force)[3];
 } grid;
@@ -46,31 +48,30 @@ static double action_of(const grid *g, const double *x, double *u) {
   for (int64_t i = 2; i <= g->n - 2; i++) {
     const double *f = g->force[i % g->samples];
     const double s = sin(x[i]), c = cos(x[i]);
-    u[i] =
-        relax_difference(g->second, x + i) + g->beta * relax_difference(g->first, x + i) + f[0] * s - f[1] * c - f[2];
+    g->pull[i][0] = f[0] * s - f[1] * c;
+    g->pull[i][1] = f[0] * c + f[1] * s;
+    u[i] = relax_difference(g->second, x + i) + g->beta * relax_difference(g->first, x + i) + g->pull[i][0] - f[2];
     sum += u[i] * u[i];
   }
   return sum * g->h / (4 * g->beta);
 }
 
-/* Gradient and Hessian of half the sum of u^2. */
-static void relax_linearise(const grid *g, const double *x, const double *u, newton *at) {
-  memset(at->hessian, 0, (size_t)at->n * sizeof *at->hessian);
-  memset(at->gradient, 0, (size_t)at->n * sizeof *at->gradient);
-  for (int64_t i = 2; i <= g->n - 2; i++) {
-    const double *f = g->force[i % g->samples];
-    const double s = sin(x[i]), c = cos(x[i]);
-    double row[5];
-    for (int p = 0; p < 5; p++) row[p] = g->second[p] + g->beta * g->first[p];
-    row[2] += f[0] * c + f[1] * s;
-    for (int p = 0; p < 5; p++) {
-      const int64_t a = i - 2 + p - FIXED;
-      if (a < 0 || a >= at->n) continue;
-      at->gradient[a] += row[p] * u[i];
-      for (int q = 0; q <= p && q <= p + a; q++)
-        if (a - (p - q) >= 0) at->hessian[a][p - q] += row[p] * row[q];
+/* Gradient and Hessian of half the sum of u^2 at the point of the last action_of. */
+static void relax_linearise(const grid *g, const double *u, newton *at) {
+  double weight[5];
+  for (int p = 0; p < 5; p++) weight[p] = g->second[p] + g->beta * g->first[p];
+  for (int64_t a = 0; a < at->n; a++) { /* point a + FIXED acts on u at two points on each side */
+    const int64_t i = a + FIXED;
+    double sum = 0, row[BAND + 1] = {0};
+    for (int e = -2; e <= 2; e++) { /* u at i + e has the weight of place 2 - e of this point */
+      const double own = weight[2 - e] + (e == 0 ? g->pull[i][1] : 0);
+      sum += own * u[i + e];
+      for (int w = 0; w <= 2 - e; w++) /* point i - w has place 2 - e - w there */
+        row[w] += own * (weight[2 - e - w] + (w == -e ? g->pull[i + e][1] : 0));
     }
-    if (i >= FIXED && i < FIXED + at->n) at->hessian[i - FIXED][0] -= u[i] * (f[0] * s - f[1] * c);
+    at->gradient[a] = sum;
+    row[0] -= u[i] * g->pull[i][0];
+    memcpy(at->hessian[a], row, sizeof row);
   }
 }
 
@@ -124,13 +125,13 @@ static double relax_step(const grid *g, newton *at, double most, double *x, doub
   double shift = FIRST_SHIFT, action = action_of(g, x, u);
   for (int i = 0; i < MAX_ITERATIONS; i++) {
     const double before = action;
-    relax_linearise(g, x, u, at);
+    relax_linearise(g, u, at);
     if (!relax_descend(g, at, x, &shift, &action, next, torque)) return action;
     memcpy(x, next, (size_t)(g->n + 1) * sizeof *x);
     memcpy(u, torque, (size_t)(g->n + 1) * sizeof *u);
     shift *= 0.15;
     if (before - action < ENOUGH * action) return action;
-    if (i >= PATIENCE && action > FAR_TOO_LARGE * most) return INFINITY;
+    if (i >= PATIENCE && action - FORESEEN * (before - action) > most) return INFINITY;
   }
   return action;
 }
@@ -151,7 +152,7 @@ double kz_path_relax(const kz_pendulum *pendulum, int64_t n, int32_t samples, do
                      double *node) {
   const size_t points = (size_t)(n * samples + 1);
   KZ_AUTOFREE double (*force)[3] = kz_malloc((size_t)samples * sizeof *force);
-  KZ_AUTOFREE double *memory = kz_calloc((3 + 2 * (BAND + 1) + 2) * points, sizeof *memory);
+  KZ_AUTOFREE double *memory = kz_calloc((3 + 2 * (BAND + 1) + 4) * points, sizeof *memory);
   double *u = memory, *next = u + points, *torque = next + points, *hessian = torque + points,
          *factor = hessian + (BAND + 1) * points, *gradient = factor + (BAND + 1) * points;
   newton at = {.n = (int64_t)points - 2 * FIXED,
@@ -160,7 +161,8 @@ double kz_path_relax(const kz_pendulum *pendulum, int64_t n, int32_t samples, do
                .gradient = gradient,
                .step = gradient + points};
   kz_path_forces(pendulum, samples, 0, force[0]);
-  const grid g = grid_of(pendulum, n, samples, (const double (*)[3])force);
+  grid g = grid_of(pendulum, n, samples, (const double (*)[3])force);
+  g.pull = (double (*)[2])(gradient + 2 * points);
   const double action = relax_step(&g, &at, most, theta, u, next, torque);
   read_nodes(&g, theta, u, node);
   return isfinite(action) ? action : INFINITY;

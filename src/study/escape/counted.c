@@ -23,23 +23,22 @@ bool kz_escape_is_left(const kz_escape_plan *plan, const kz_listed *attractors, 
   return named && attractors->period[id] > 0;
 }
 
-/* Distance of a state from the undisturbed motion after `period` periods, on the line; turns of the full cycle. */
-static double distance_of(const kz_listed *list, int64_t id, int64_t winding, int64_t period, double theta) {
-  const int64_t n = (int64_t)list->period[id];
-  const double drift = 2 * M_PI * (double)winding / (double)n;
-  return fabs(theta - (list->theta[id * list->phases] + drift * (double)period));
+/* The angle of the undisturbed motion after `period` periods, on the line. */
+static double undisturbed_angle(const kz_escape_cycle *cycle, int64_t period) {
+  const int64_t phase = period % cycle->period;
+  return cycle->end[phase].state[0] +
+         2 * M_PI * (double)(cycle->turns[phase] + cycle->winding * (period / cycle->period));
 }
 
-static kz_status counted_live(const work *w, const kz_walker *walker, int64_t id, int64_t winding, uint64_t seed,
+static kz_status counted_live(const work *w, const kz_walker *walker, const kz_escape_cycle *cycle, uint64_t seed,
                               lives *sum) {
   const kz_escape_plan *plan = w->scene->escape;
-  double theta = w->attractors->theta[id * w->attractors->phases],
-         velocity = w->attractors->velocity[id * w->attractors->phases];
+  double theta = cycle->end[0].state[0], velocity = cycle->end[0].state[1];
   for (int64_t t = 0; t < plan->max_periods; t++) {
     kz_walker_advance(walker, seed, (uint64_t)t, &theta, &velocity);
     sum->periods++;
     if (t % 4096 == 0) KZ_TRY(kz_ranks_interrupted(w->run->ranks));
-    if (distance_of(w->attractors, id, winding, t + 1, theta) > plan->angle) {
+    if (fabs(theta - undisturbed_angle(cycle, t + 1)) > plan->angle) {
       sum->ended++;
       return KZ_OK;
     }
@@ -63,7 +62,7 @@ static kz_status count_tile(void *context, int64_t tile, void *record) {
   kz_walker *walker = kz_walker_create(pendulum, plan->temperatures.values[temperature], flow.samples);
   kz_status status = KZ_OK;
   for (int64_t i = batch * BATCH; i < plan->walkers && i < (batch + 1) * BATCH && found && status == KZ_OK; i++)
-    status = counted_live(w, walker, id, cycle.winding, kz_path_hash((uint64_t)row, (uint64_t)i), record);
+    status = counted_live(w, walker, &cycle, kz_path_hash((uint64_t)row, (uint64_t)i), record);
   kz_walker_free(walker);
   kz_escape_cycle_free(&cycle);
   kz_escape_flow_free(&flow);

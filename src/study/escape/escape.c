@@ -1,6 +1,7 @@
 /* Study `escape`: each attractor with each saddle to which a path is sought is a tile. */
 #include "cells/scene_search.h"
 #include "counted.h"
+#include "plane.h"
 #include "report.h"
 #include "saddles/saddles.h"
 
@@ -34,7 +35,8 @@ static kz_status search_tile(void *context, int64_t tile, void *record) {
       find_cycle(&flow, w->saddles, task->saddle, false, &to)) {
     kz_escape_search(&flow, &from, &to, w->scene->escape->starts, (uint64_t)(task->from * INT16_MAX + task->saddle),
                      route);
-    if (route->count > 0 && !kz_escape_finish(&flow, &from, &to, route)) route->least.action = INFINITY;
+    if (route->count > 0 && !kz_escape_finish(&flow, &from, &to, KZ_ESCAPE_FINISHED, route))
+      route->least.action = INFINITY;
   }
   kz_escape_cycle_free(&from);
   kz_escape_cycle_free(&to);
@@ -123,6 +125,7 @@ static kz_status run_tasks(const kz_scene *scene, const kz_run *run, const kz_es
   kz_status status = kz_gates_find(labels, &flow, saddles, gate);
   kz_escape_flow_free(&flow);
   KZ_TRY(status);
+  if (kz_is_mirrored(&scene->parameters.pendulum)) kz_gates_pair(attractors, saddles, gate);
   int64_t n;
   KZ_AUTOFREE kz_escape_task *task =
       list_tasks(plan, kz_is_mirrored(&scene->parameters.pendulum), attractors, saddles, gate, &n);
@@ -132,8 +135,7 @@ static kz_status run_tasks(const kz_scene *scene, const kz_run *run, const kz_es
   KZ_TRY(kz_stage_run(run, &stage, route));
   KZ_TRY(escape_release(labels, gate, n, route, task));
   const kz_escape_report report = {scene, attractors, saddles, gate, n, task, route};
-  if (store) KZ_TRY(kz_escape_write(&report, store, summary));
-  return kz_escape_count(scene, run, attractors, store, summary);
+  return kz_ranks_agree(run->ranks, store ? kz_escape_write(&report, store, summary) : KZ_OK);
 }
 
 kz_status kz_escape_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
@@ -145,14 +147,10 @@ kz_status kz_escape_run(const kz_scene *scene, const kz_run *run, kz_store *stor
   KZ_TRY(kz_listed_read(run, store, "saddles", "saddle", &saddles));
   KZ_TRY(check_from(scene->escape, &attractors));
   KZ_AUTOFREE_BY(kz_dynamics_freed) kz_dynamics *dynamics = kz_search_dynamics(scene);
-  KZ_TRY(kz_search_window(run, dynamics, &search, NULL));
   KZ_AUTOFREE kz_escape_labels *labels = kz_calloc(1, sizeof *labels);
   *labels = (kz_escape_labels){.run = run, .dynamics = dynamics, .max_periods = search.max_periods};
-  for (int64_t i = 0; i < attractors.count; i++)
-    if (attractors.period[i] > 0)
-      kz_dynamics_add_cycle(dynamics, (int64_t)attractors.period[i], attractors.theta[i * attractors.phases],
-                            attractors.velocity[i * attractors.phases]);
-  kz_dynamics_update(dynamics);
-  kz_listed_match(dynamics, &attractors, labels->id);
-  return run_tasks(scene, run, labels, &attractors, &saddles, store, summary);
+  KZ_TRY(kz_escape_labels_make(&search, &attractors, labels));
+  KZ_TRY(run_tasks(scene, run, labels, &attractors, &saddles, store, summary));
+  KZ_TRY(kz_escape_over_plane(scene, labels, &attractors, store, summary));
+  return kz_escape_count(scene, run, &attractors, store, summary);
 }

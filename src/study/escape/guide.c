@@ -2,18 +2,20 @@
 #include "guide.h"
 
 /* Points a period of the discretised action, and steps of the flow for each, of a pendulum with small forces. */
-enum { SAMPLES = 24, STEPS_OF_A_SAMPLE = 3 };
+enum { SAMPLES = 24, STEPS_OF_A_SAMPLE = 3, COARSE_STEPS = 1 };
 
 kz_escape_flow kz_escape_flow_of(const kz_pendulum *pendulum) {
   const kz_pendulum with_derivatives[3] = {*pendulum, {.k = 1}, {.m = 1}};
   kz_numerics fine;
   kz_numerics_fine(pendulum, &fine);
   const int32_t more = 1 + (fine.steps_per_period - 1) / (SAMPLES * STEPS_OF_A_SAMPLE), samples = SAMPLES * more;
-  return (kz_escape_flow){pendulum, kz_hamilton_create(with_derivatives, STEPS_OF_A_SAMPLE * samples), samples};
+  return (kz_escape_flow){pendulum, kz_hamilton_create(with_derivatives, STEPS_OF_A_SAMPLE * samples),
+                          kz_hamilton_create(with_derivatives, COARSE_STEPS * samples), samples};
 }
 
 void kz_escape_flow_free(kz_escape_flow *flow) {
   kz_hamilton_free(flow->flow);
+  kz_hamilton_free(flow->coarse);
 }
 
 bool kz_escape_cycle_find(const kz_escape_flow *flow, int64_t period, bool attracts, const double *theta,
@@ -25,7 +27,7 @@ bool kz_escape_cycle_find(const kz_escape_flow *flow, int64_t period, bool attra
   KZ_AUTOFREE double (*sample)[4] = kz_malloc((size_t)flow->samples * sizeof *sample);
   for (int64_t j = 0; j < period; j++) {
     if (!kz_path_end_find(flow->flow, period, attracts, theta[j], velocity[j], cycle->end + j)) return false;
-    kz_hamilton_sample(flow->flow, flow->samples, cycle->end[j].state, sample[0]);
+    kz_hamilton_sample(flow->flow, flow->samples, 1, cycle->end[j].state, sample[0]);
     double *out = cycle->theta + j * flow->samples;
     out[0] = cycle->end[j].state[0];
     for (int32_t i = 1; i < flow->samples; i++) out[i] = sample[i - 1][0];

@@ -20,8 +20,23 @@ static const kz_key keys[] = {
                    "Longest life of such a motion, in drive periods."),
     KZ_ROW_REAL("escape.angle", "rad", KZ_ABOVE_ZERO, 1e6, "2.6", angle,
                 "A life has ended when a strobe lies farther from the undisturbed motion."),
+    KZ_ROW_RANGE("escape.x", KZ_RANGE_PARAMETER, x, "",
+                 "Barriers along this key of the pendulum mapping too, out of the basins that are left."),
+    KZ_ROW_PLANE_KEYS(escape, x),
+    KZ_ROW_INTEGER("escape.x.count", 2, 1e5, NULL, x.values.count, "Number of values, both ends included."),
+    KZ_ROW_RANGE("escape.y", KZ_RANGE_PARAMETER, y, "", "Over a plane: the key along the vertical axis."),
+    KZ_ROW_PLANE_KEYS(escape, y),
+    KZ_ROW_INTEGER("escape.y.count", 2, 1e5, NULL, y.values.count, "Number of values, both ends included."),
+    KZ_ROW_INTEGER("escape.search_every", 1, KZ_ESCAPE_MOST_PATCH, "8", patch,
+                   "Values of x, and of y, between two searches; in between paths are continued."),
     {.path = NULL},
 };
 
-KZ_STUDY_ROW(.damped = true,
+static const char *keys_lack(const kz_scene *scene) {
+  return scene->escape->y.parameter >= 0 && scene->escape->x.parameter < 0
+             ? "y: is the second axis of a plane; give x for a line along one key, or x and y"
+             : NULL;
+}
+
+KZ_STUDY_ROW(.damped = true, .lack = keys_lack,
              .needs = {{"a list of attractors", "basin|attractors"}, {"a list of unstable cycles", "saddles"}});

@@ -2,7 +2,7 @@
 #include "report.h"
 
 /* rad: distance from a saddle at which the side of a path is seen, and that of the states that are released. */
-static const double SEEN = 1e-4, RELEASED = 1e-5;
+static const double SEEN = 1e-8, RELEASED = 1e-5;
 /* Relative difference of the actions of mirror images that agree. */
 static const double AGREES = 1e-9;
 
@@ -62,7 +62,9 @@ int64_t kz_escape_into(const kz_escape_report *r, int32_t from, int32_t into) {
   int64_t best = -1;
   for (int64_t i = 0; i < r->n; i++) {
     const double action = r->route[i].least.action;
-    if (r->task[i].from != from || isinf(action) || !kz_gate_is_of(r->gate + r->task[i].saddle, into, alone)) continue;
+    const kz_gate *gate = r->gate + r->task[i].saddle;
+    if (r->task[i].from != from || isinf(action)) continue;
+    if (!kz_gate_is_of(gate, into, alone) && !(gate->meets >> into & 1)) continue;
     if (best < 0 || action < r->route[best].least.action) best = i;
   }
   return best;

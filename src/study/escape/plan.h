@@ -3,6 +3,7 @@
 
 #include "kapitza/study.h"
 
+enum { KZ_ESCAPE_MOST_PATCH = 32 };
 struct kz_escape_plan {
   kz_integers from;      /* ids of attractors; empty = all */
   bool everywhere;       /* paths into every basin, not only out of each */
@@ -10,5 +11,7 @@ struct kz_escape_plan {
   kz_reals temperatures; /* at which lives are counted; empty = none */
   int64_t walkers;       /* for each attractor and temperature */
   int64_t max_periods;   /* for which one is followed */
+  kz_plane_axis x, y;    /* over which barriers are continued; parameter KZ_UNSET_WORD = none */
+  int64_t patch;         /* values of an axis between two searches */
   double angle;          /* rad from the attractor's motion at a strobe, beyond which a life has ended */
 };

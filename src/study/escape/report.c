@@ -73,7 +73,7 @@ static void sample_path(const kz_escape_flow *flow, int64_t place, shown_paths *
   while (first + 2 < last && unit * fabs(route->node[4 * first + 3]) < least) first++;
   while (last > first + 1 && unit * fabs(route->node[4 * last - 1]) < least) last--;
   for (int64_t t = first > 0 ? first - 1 : 0; t < last; t++) {
-    kz_hamilton_sample(flow->flow, flow->samples, route->node + 4 * t, sample[0]);
+    kz_hamilton_sample(flow->flow, flow->samples, 1, route->node + 4 * t, sample[0]);
     for (int32_t i = 0; i < flow->samples; i++) {
       const double *z = i == 0 ? route->node + 4 * t : sample[i - 1];
       double *out = shown->point[shown->n++];

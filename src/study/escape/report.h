@@ -34,6 +34,7 @@ void kz_escape_beyond(const kz_escape_route *route, const kz_gate *gate, double 
 void kz_escape_pair(const kz_escape_report *report);
 /* life [attractors->count]. */
 void kz_escape_lives(const kz_escape_report *report, kz_escape_life *life);
-/* The least path from an attractor to the edge of the basin of `into`; -1 = none. */
+/* Returns the least path from an attractor to a saddle from which a motion without torque can end in the basin of
+ * `into`; -1 = none. */
 int64_t kz_escape_into(const kz_escape_report *report, int32_t from, int32_t into);
 kz_status kz_escape_write(const kz_escape_report *report, kz_store *store, FILE *summary);

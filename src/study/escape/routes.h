@@ -15,8 +15,8 @@ typedef struct {
 /* The numerics of a pendulum's paths. */
 typedef struct {
   const kz_pendulum *pendulum;
-  kz_hamilton *flow;
-  int32_t samples; /* points a period of the discretised action */
+  kz_hamilton *flow, *coarse; /* right to 1e-12 a period; right to some 1e-9, for searches */
+  int32_t samples;            /* points a period of the discretised action */
 } kz_escape_flow;
 
 /* The flow, with derivatives of the action by k and m. */
@@ -45,6 +45,18 @@ typedef struct {
 /* Searches from `starts` starts of the minimiser, of which `seed` gives the places. */
 void kz_escape_search(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to,
                       int64_t starts, uint64_t seed, kz_escape_route *route);
-/* Polishes the least path again, with ends so near to the cycles that they change nothing. False where that fails. */
+/* Polishes a path; then again with more periods near its cycles, where it ends farther than `distance` (rad) from one.
+ * False where that fails. */
+bool kz_escape_polish(const kz_hamilton *flow, const kz_path_end *from, const kz_path_end *to, double distance,
+                      kz_path *path);
+/* The distance at which what is cut off changes no digit of the action, and one at which it changes less than 1e-9 of
+ * it. */
+#define KZ_ESCAPE_FINISHED 1e-7
+#define KZ_ESCAPE_NEAR 1e-4
+/* Polishes the least path again, to a distance from its cycles. False where that fails. */
 bool kz_escape_finish(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to,
-                      kz_escape_route *route);
+                      double distance, kz_escape_route *route);
+double kz_escape_torque(const kz_escape_flow *flow, const kz_path *path); /* Largest torque along a path */
+/* Drive periods in which motions near a cycle change their distance by a factor e, at least; of a saddle in its stable
+ * plane. */
+double kz_escape_slowest(const kz_path_end *end);

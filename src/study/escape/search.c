@@ -2,30 +2,52 @@
 #include "guide.h"
 
 /* Periods of a path: fewest and most; more when its ends are finished. */
-enum { FEWEST = 24, MOST = 320 };
-/* Factor of approach to cycles in the search; rad: distance where cycles are linear; distance at finished ends. */
-static const double APPROACH = 300, LINEAR = 0.05, FINISHED = 1e-7;
+enum { FEWEST = 24, MOST = 320, MAX_ROUNDS = 3 /* rounds of lengthening at most */ };
+/* Factor by which a path comes near its cycles in the search; distance (rad) at which a cycle is linear. */
+static const double APPROACH = 300, LINEAR = 0.05;
+/* A path is refused that ends so many times farther from a cycle than it is asked to. */
+static const double FAR = 10;
 /* Relative difference of actions of one family; those that are worth polishing, beside the least. */
 static const double SAME = 1e-6, WORTH = 1.5;
 
-/* Drive periods in which motions near the cycle, for a saddle in its stable plane, approach by a factor e. */
-static double search_slowest(const kz_escape_cycle *cycle) {
-  const kz_path_end *end = cycle->end;
+double kz_escape_slowest(const kz_path_end *end) {
   const double determinant = fabs(end->own[0][0] * end->own[1][1] - end->own[0][1] * end->own[1][0]),
                growth = fabs(end->growth);
   const double factor = growth < 1 ? growth : fmax(1 / growth, determinant / growth);
-  return -(double)cycle->period / log(factor);
+  return -(double)end->period / log(factor);
 }
 
 static int64_t search_clamped(double periods, int64_t low, int64_t high) {
   return periods<(double)low ? low : periods>(double) high ? high : (int64_t)periods;
 }
 
-static kz_guess guess_of(const kz_escape_cycle *from, const kz_escape_cycle *to, uint64_t seed, int64_t start) {
+/* The strobe of the attractor from which its motion stays nearest to that of the saddle, if both come to strobe 0 of
+ * the saddle after n periods. */
+static int64_t nearest_phase(int32_t samples, const kz_escape_cycle *from, const kz_escape_cycle *to, int64_t n) {
+  int64_t best = 0;
+  double least = INFINITY;
+  for (int64_t phase = 0; phase < from->period; phase++) {
+    double sum = 0;
+    for (int64_t t = 0; t < from->period * to->period; t++)
+      for (int32_t i = 0; i < samples; i++) {
+        const int64_t strobe = ((t - n) % to->period + to->period) % to->period;
+        const double apart = remainder(
+            from->theta[(phase + t) % from->period * samples + i] - to->theta[strobe * samples + i], 2 * M_PI);
+        sum += apart * apart;
+      }
+    if (sum < least) least = sum, best = phase;
+  }
+  return best;
+}
+
+/* One guess in three begins at the nearest phase, without more turns. */
+static kz_guess guess_of(int32_t samples, const kz_escape_cycle *from, const kz_escape_cycle *to, uint64_t seed,
+                         int64_t start) {
   static const double WIDTHS[] = {2, 4, 8, 16, 30};
   double u[4];
   for (int i = 0; i < 4; i++) u[i] = kz_path_random(seed, (uint64_t)(4 * start + i));
-  const double leaves = search_slowest(from) * log(APPROACH), approaches = search_slowest(to) * log(APPROACH);
+  const double leaves = kz_escape_slowest(from->end) * log(APPROACH),
+               approaches = kz_escape_slowest(to->end) * log(APPROACH);
   kz_guess guess = {.periods = search_clamped(leaves + fmin(approaches, 0.5 * MOST), FEWEST, MOST)};
   const double least = fmin(5, 0.2 * (double)guess.periods),
                most = fmin(fmax(45, approaches), 0.7 * (double)guess.periods);
@@ -33,6 +55,9 @@ static kz_guess guess_of(const kz_escape_cycle *from, const kz_escape_cycle *to,
   guess.change = (double)guess.periods - (least + (most - least) * u[1]);
   guess.width = fmin(WIDTHS[(int)(5 * u[2])], 0.3 * (double)guess.periods);
   guess.turn = floor(3 * u[3]) - 1;
+  if (start % 3 != 0) return guess;
+  guess.phase = nearest_phase(samples, from, to, guess.periods);
+  guess.turn = 0;
   return guess;
 }
 
@@ -65,22 +90,21 @@ static void keep_least(const kz_path *path, int64_t phase, kz_escape_route *rout
   memcpy(route->node, path->node, (size_t)(4 * (path->n + 1)) * sizeof *path->node);
 }
 
-/* Polishes a path; then again with more periods near its cycles, where it ends farther than `distance` from one. */
-static bool polish_to(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to, int64_t phase,
-                      double distance, kz_path *path) {
-  const kz_escape_cycle *cycle[2] = {from, to};
-  int64_t more[2];
-  if (!kz_path_polish(flow->flow, from->end + phase, to->end, path)) return false;
-  for (int side = 0; side < 2; side++) {
-    const double periods = search_slowest(cycle[side]) * log(fmax(1, path->beyond[side] / distance));
-    more[side] = periods > 0 ? search_clamped(periods, 0, (KZ_ESCAPE_NODES - 1 - path->n) / 2 - cycle[side]->period) /
-                                       cycle[side]->period +
-                                   1
-                             : 0;
+bool kz_escape_polish(const kz_hamilton *flow, const kz_path_end *from, const kz_path_end *to, double distance,
+                      kz_path *path) {
+  const kz_path_end *end[2] = {from, to};
+  for (int round = 0; round < MAX_ROUNDS; round++) {
+    int64_t more[2];
+    if (!kz_path_polish(flow, from, to, path)) return false;
+    for (int side = 0; side < 2; side++) {
+      const double periods = kz_escape_slowest(end[side]) * log(fmax(1, path->beyond[side] / distance));
+      const int64_t room = (KZ_ESCAPE_NODES - 1 - path->n) / 2 - end[side]->period;
+      more[side] = periods > 0 ? search_clamped(periods, 0, room) / end[side]->period + 1 : 0;
+    }
+    if (more[0] + more[1] == 0) return true;
+    kz_path_lengthen(flow, from, to, more, path);
   }
-  if (more[0] + more[1] == 0) return true;
-  kz_path_lengthen(flow->flow, from->end + phase, to->end, more, path);
-  return kz_path_polish(flow->flow, from->end + phase, to->end, path);
+  return kz_path_polish(flow, from, to, path) && fmax(path->beyond[0], path->beyond[1]) < FAR * distance;
 }
 
 void kz_escape_search(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to,
@@ -89,14 +113,16 @@ void kz_escape_search(const kz_escape_flow *flow, const kz_escape_cycle *from, c
   route->count = route->starts = 0;
   route->least = (kz_path){.action = INFINITY};
   for (int64_t i = 0; i < starts; i++) {
-    const kz_guess guess = guess_of(from, to, seed, i);
+    const kz_guess guess = guess_of(flow->samples, from, to, seed, i);
     kz_path path = {.n = guess.periods, .node = kz_malloc((size_t)(4 * (guess.periods + 1)) * sizeof(double))};
     kz_escape_guess(flow, from, to, &guess, theta, path.turns);
-    const double relaxed = kz_path_relax(flow->pendulum, path.n, flow->samples, route->least.action, theta, path.node);
+    const double relaxed =
+        kz_path_relax(flow->pendulum, path.n, flow->samples, WORTH * route->least.action, theta, path.node);
     route->starts += isfinite(relaxed);
     int64_t family = family_of(route, relaxed);
-    if (family < 0 && relaxed < WORTH * route->least.action && polish_to(flow, from, to, guess.phase, LINEAR, &path) &&
-        path.action > 0 && path.beyond[1] < 2 * LINEAR) {
+    if (family < 0 && relaxed < WORTH * route->least.action &&
+        kz_escape_polish(flow->coarse, from->end + guess.phase, to->end, LINEAR, &path) && path.action > 0 &&
+        path.beyond[1] < 2 * LINEAR) {
       if (family_of(route, path.action) < 0) add_family(route, path.action);
       family = family_of(route, path.action);
       keep_least(&path, guess.phase, route);
@@ -106,27 +132,27 @@ void kz_escape_search(const kz_escape_flow *flow, const kz_escape_cycle *from, c
   }
 }
 
-static double largest_torque(const kz_escape_flow *flow, const kz_path *path) {
-  KZ_AUTOFREE double (*sample)[4] = kz_malloc((size_t)flow->samples * sizeof *sample);
+double kz_escape_torque(const kz_escape_flow *flow, const kz_path *path) {
+  const int64_t n = path->n * flow->samples;
+  KZ_AUTOFREE double (*sample)[4] = kz_malloc((size_t)n * sizeof *sample);
   double largest = 0;
-  for (int64_t t = 0; t < path->n; t++) {
-    kz_hamilton_sample(flow->flow, flow->samples, path->node + 4 * t, sample[0]);
-    for (int32_t i = 0; i < flow->samples; i++) largest = fmax(largest, 2 * flow->pendulum->beta * fabs(sample[i][3]));
-  }
+  kz_hamilton_sample(flow->flow, flow->samples, path->n, path->node, sample[0]);
+  for (int64_t i = 0; i < n; i++) largest = fmax(largest, 2 * flow->pendulum->beta * fabs(sample[i][3]));
   return largest;
 }
 
 bool kz_escape_finish(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to,
-                      kz_escape_route *route) {
+                      double distance, kz_escape_route *route) {
   kz_path path = route->least;
   const size_t bytes = (size_t)(4 * (path.n + 1)) * sizeof *path.node;
   path.node = kz_malloc(bytes);
   memcpy(path.node, route->node, bytes);
-  const bool good = polish_to(flow, from, to, route->phase, FINISHED, &path);
+  const bool good = kz_escape_polish(flow->coarse, from->end + route->phase, to->end, distance, &path) &&
+                    kz_path_polish(flow->flow, from->end + route->phase, to->end, &path);
   if (good) {
     route->least.action = INFINITY;
     keep_least(&path, route->phase, route);
-    route->largest_torque = largest_torque(flow, &path);
+    route->largest_torque = kz_escape_torque(flow, &path);
   }
   free(path.node);
   return good;

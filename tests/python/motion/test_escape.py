@@ -120,6 +120,64 @@ def test_the_bytes_do_not_depend_on_the_ranks(fig12, kapitza, tmp_path):
                                         ranks=3).path) == datasets(result.path)
 
 
+def along(low, high, count, name="x", parameter="drive_amplitude"):
+    return {name: {"parameter": parameter, "min": low, "max": high, "count": count}}
+
+
+def over(kapitza, tmp_path, epsilon, axes, ranks=1, **escape):
+    """The line or the plane of the inverted state's barrier."""
+    scene = at(epsilon, **escape, **axes)
+    found, _ = run_scene(kapitza, tmp_path, {name: scene[name] for name in ("pendulum", "attractors")},
+                         name="attractors")
+    inverted = named(found, "attractors", "inverted")[0]
+    scene["escape"]["from"] = [inverted]
+    result, summary = run_scene(kapitza, tmp_path, scene, ranks=ranks)
+    return result, inverted, summary
+
+
+def test_a_barrier_is_continued_along_a_key(kapitza, tmp_path):
+    """Values of single searches; the slope that comes with the path is the difference of actions to 1e-6."""
+    result, inverted, summary = over(kapitza, tmp_path, 0.25, along(0.2, 0.25, 6), search_every=3,
+                                     starts=24)
+    escape = result.group("escape")
+    barrier = escape["line_barrier"].values[inverted]
+    for i, value in ((0, BARRIERS[0][1]), (5, BARRIERS[1][1])):
+        assert barrier[i] == pytest.approx(value, rel=3e-8)
+    assert "at 6 of 6 places; largest at drive_amplitude = 0.25" in summary
+    assert np.isnan(np.delete(escape["line_barrier"].values, inverted, axis=0)).all()
+    close, inverted, _ = over(kapitza, tmp_path, 0.25, along(0.2499, 0.2501, 3))
+    escape = close.group("escape")
+    difference = np.diff(escape["line_barrier"].values[inverted][[0, 2]])[0] / 0.0002
+    assert escape["line_barrier_by_x"].values[inverted][1] == pytest.approx(difference, abs=1e-6)
+
+
+def test_the_bytes_of_a_plane_do_not_depend_on_the_ranks(kapitza, tmp_path):
+    axes = {**along(0.24, 0.25, 4), **along(4.8, 5.2, 3, "y", "quality_factor")}
+    result, inverted, _ = over(kapitza, tmp_path, 0.25, axes, ranks=2, search_every=2)
+    scene = at(0.25, **axes, search_every=2, **{"from": [inverted]})
+    other = stopped_and_resumed(kapitza, tmp_path, scene, ranks=3)
+    assert datasets(other.path) == datasets(result.path)
+    escape = result.group("escape")
+    barrier = escape["plane_barrier"].values[inverted]
+    assert barrier.shape == (3, 4) and np.all(np.diff(barrier, axis=1) > 0)
+    middle = escape["plane_barrier_by_y"].values[inverted][1, 2]
+    assert middle == pytest.approx((barrier[2, 2] - barrier[0, 2]) / 0.4, rel=0.02)
+
+
+@pytest.mark.extensive
+def test_the_barrier_has_two_humps(kapitza, tmp_path):
+    """A stronger drive does not raise the barrier for ever; continuation finds lower paths than single searches."""
+    axes = along(0.26, 0.44, 37)
+    result, inverted, _ = over(kapitza, tmp_path, 0.3, axes, ranks=2, search_every=6, starts=24)
+    escape = result.group("escape")
+    x, barrier = escape["x"].values, escape["line_barrier"].values[inverted]
+    first, second = x < 0.35, x > 0.39
+    assert x[first][np.argmax(barrier[first])] == pytest.approx(0.315, abs=0.006)
+    assert barrier[first].max() == pytest.approx(0.009946, rel=1e-3)
+    assert x[second][np.argmax(barrier[second])] == pytest.approx(0.425, abs=0.006)
+    assert barrier[second].max() == pytest.approx(0.00506, rel=1e-2)
+
+
 def test_incomplete_saddles_and_motions_that_are_no_cycles_are_refused(kapitza, tmp_path):
     narrow = {**SCENE, "saddles": {"theta": {"min": -1, "max": 1}, "velocity": {"min": -0.2, "max": 0.2},
                                    "max_period": 1}}
