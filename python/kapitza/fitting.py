@@ -139,7 +139,7 @@ class Fit:
 
     @property
     def largest(self) -> float:
-        """Largest swing, about hanging or inverted, in degrees; what a track says of larger ones is no measurement."""
+        """Largest swing, about down or inverted, in degrees; what a track says of larger ones is no measurement."""
         rest = self.best.values["offset"] + (math.pi if self.inverted else 0.0)
         return float(np.degrees(np.abs(np.remainder(self.theta - rest + math.pi, TURN) - math.pi).max()))
 

@@ -84,7 +84,7 @@ def _driven_begins(
     time: np.ndarray, theta: np.ndarray, begin: dict[str, float], omega: float
 ) -> list[dict[str, float]]:
     """Numbers of driven pendulums to begin with: minima of the averaged motion, which is tried with several drives
-    whose slow frequency is that of the track: sqrt(omega0^2 + (drive omega)^2 / 2) hanging,
+    whose slow frequency is that of the track: sqrt(omega0^2 + (drive omega)^2 / 2) down,
     sqrt((drive omega)^2 / 2 - omega0^2) inverted."""
     free = fitted(NAME, time, theta, begin, None, TRIES)
     slow, offset, turn = free.values["omega0"], free.values["offset"], omega * (time - time[0])

@@ -62,13 +62,13 @@ def boundaries(runs, known):
         for what, curve, sign, key in (
             ("lower boundary of the inverted position", lower, -1, "eps_lower_exact"),
             ("upper boundary of the inverted position", upper, -1, "eps_upper_exact"),
-            ("upper boundary of the hanging position", upper, 1, "eps_down_upper_exact"),
+            ("upper boundary of the down position", upper, 1, "eps_down_upper_exact"),
         ):
             yield Number("Fig. 4", f"{what}, {where}", at(chart, sign * k, curve), reference=row[key], bar=1e-9)
         for equation, what, curve, sign, key in (
             ("(5)", "lower boundary of the inverted position", "blackburn_lower", -1, "eq5"),
             ("(6)", "upper boundary of the inverted position", "blackburn_upper", -1, "eq6"),
-            ("(6)", "upper boundary of the hanging position", "blackburn_down_upper", 1, "eq6_down"),
+            ("(6)", "upper boundary of the down position", "blackburn_down_upper", 1, "eq6_down"),
         ):
             if not damping:
                 yield Number(equation, f"{what}, Omega = {omega}", at(chart, sign * k, curve), reference=row[key],

@@ -82,7 +82,7 @@ FORMULA(butikov_damped_2, -INFINITY, 8.0 / 3, kz_hill_cut_whole(k, beta))
   ROW(blackburn_upper, 0)      /* k <= 0: BSG (6) */                                        \
   ROW(blackburn_upper_note, 0) /* k <= 0: BSG, note 13 */                                   \
   ROW(blackburn_tangent, 0)    /* k <= 1/4: BSG, delta = 1/4 - epsilon/2, tangent to b_1 */ \
-  ROW(blackburn_down_upper, 0) /* 0 <= k <= 1/4: BSG (6), hanging */                        \
+  ROW(blackburn_down_upper, 0) /* 0 <= k <= 1/4: BSG (6), down */                           \
   ROW(damped_0, 0)             /* k <= 0: multiplier 1, continues curve 1 */                \
   ROW(damped_1, 3)             /* tongue 1: multiplier -1, continues curves 2 and 3 */      \
   UPPER(damped_1, 3)           /* tongue 1 beyond its turn */                               \

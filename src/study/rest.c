@@ -161,13 +161,14 @@ void kz_rest_print(const kz_parameters *parameters, FILE *out) {
   kz_pendulum form;
   kz_drive_form(parameters, &form);
   const double m = form.m > 0 ? p->m : 1, sign = m < 0 ? -1 : 1;
-  const kz_pendulum hanging = rest_times(&form, sign), upside = rest_times(&form, -sign);
+  const kz_pendulum about_down = rest_times(&form, sign), about_inverted = rest_times(&form, -sign);
   const double most = most_of(p->k, m);
   const drive_words words = words_of(parameters);
-  rest down = rest_look(&hanging, p->k, p->beta, m, most), inverted = rest_look(&upside, -p->k, p->beta, m, most);
+  rest down = rest_look(&about_down, p->k, p->beta, m, most),
+       inverted = rest_look(&about_inverted, -p->k, p->beta, m, most);
   if (!(form.m > 0)) down.low = down.high = inverted.low = inverted.high = NAN; /* no key scales this drive */
-  print_position("hanging down", &down, &words, sign, out);
+  print_position("down", &down, &words, sign, out);
   fputc(' ', out);
-  print_position("upside down", &inverted, &words, sign, out);
+  print_position("inverted", &inverted, &words, sign, out);
   fputc('\n', out);
 }

@@ -22,7 +22,7 @@ const CHOICES = {
   units: ["Axes", { pi: "rad", degrees: "degrees", si: "SI" }],
   theme: ["Theme", { auto: "auto", light: "light", dark: "dark" }],
   letters: ["Letters", { usual: "usual", large: "large" }, "large letters, for a projector"],
-  middle: ["Middle", { upright: "upright", hanging: "hanging" }],
+  middle: ["Middle", { inverted: "inverted", down: "down" }],
   spread: [
     "Release",
     { 0: "exact", 1: "± 1°", 3: "± 3°", 10: "± 10°" },

@@ -82,7 +82,7 @@ export class Motion {
     return (this.numbers ??= [...this.theta.keys()]);
   }
 
-  /** The angle of a sample in [0, 2 pi): upright is in the middle. */
+  /** The angle of a sample in [0, 2 pi): inverted is in the middle. */
   wrapped(i) {
     return this.theta[i] - TURN * Math.floor(this.theta[i] / TURN);
   }

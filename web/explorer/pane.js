@@ -78,13 +78,13 @@ export class Pane {
   /** Whether a frame is of the window and the pendulum that are wanted. */
   shows(frame) {
     if (frame?.key !== JSON.stringify(this.pendulum)) return false;
-    return frame.window.equals(this.state.window.centred("hanging"));
+    return frame.window.equals(this.state.window.centred("down"));
   }
 
   /** The frames that are drawn: those of the window alone once one of them has every cell, lest patches of others
    * stay. */
   get drawnFrames() {
-    const window = this.window.centred("hanging");
+    const window = this.window.centred("down");
     const own = this.frames.filter((frame) => frame.window.equals(window));
     return own.some(({ level }) => level === 1) ? own : this.frames;
   }
@@ -263,7 +263,7 @@ export class Pane {
   async frame({ quality, levels, samples, most = undefined }) {
     const { pendulum } = this;
     // A whole circle that is its own mirror image takes half the work
-    const window = this.state.window.centred("hanging");
+    const window = this.state.window.centred("down");
     const settings = {
       quality,
       levels,

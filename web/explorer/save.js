@@ -41,7 +41,7 @@ export async function saveScene(state, pane) {
 async function sceneOf(state, pane) {
   const frame = pane.top;
   const body = {
-    window: state.window.centred("hanging").toRequest(), // as its frames are asked for
+    window: state.window.centred("down").toRequest(), // as its frames are asked for
     pendulum: asScene(pane.pendulum),
     rows: frame?.rows ?? pane.basins.height,
     columns: frame?.columns ?? pane.basins.width,

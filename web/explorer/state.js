@@ -11,7 +11,7 @@ export const DEFAULTS = {
   theme: "auto",
   points: "on",
   painter: "auto",
-  middle: "upright",
+  middle: "inverted",
   drawn: "on",
   view: "pendulum",
   letters: "usual",

@@ -108,15 +108,15 @@ export class Window {
     return new Window(this.theta.moved(x), this.velocity.moved(y).within(FASTEST));
   }
 
-  /** A whole circle with upright or hanging in its middle; other windows stay as they are. */
+  /** A whole circle with inverted or down (hanging in old addresses) in its middle; others stay as they are. */
   centred(middle) {
     if (Math.abs(this.theta.width - TURN) > WHOLE) return this;
     const half = turn(30).half();
-    const low = middle === "upright" ? Decimal.from(0) : Decimal.from(0).minus(half);
+    const low = ["down", "hanging"].includes(middle) ? Decimal.from(0).minus(half) : Decimal.from(0);
     return new Window(new Range(low, low.plus(turn(30))), this.velocity);
   }
 
-  /** The same window with its middle angle in [-pi/2, 3 pi/2): neither hanging nor upright lies at the ends. */
+  /** The same window with its middle angle in [-pi/2, 3 pi/2): neither down nor inverted lies at the ends. */
   wrapped() {
     const digits = digitsFor(this.theta.width);
     const turns = Math.floor((this.theta.centre.toNumber() + Math.PI / 2) / TURN);

@@ -2,7 +2,7 @@
 
     kapitza plot stability butikov-fig01.h5                      zones and curves over (k, m)
     kapitza plot stability blackburn-fig02.h5 --view growth      the growth rate in the tongues
-    kapitza plot stability blackburn-fig04.h5 --view frequency   hanging and inverted over the drive frequency
+    kapitza plot stability blackburn-fig04.h5 --view frequency   down and inverted over the drive frequency
     kapitza plot stability paul-trap.h5 --view trap              where ions are held in both directions
     kapitza plot stability formula-errors.h5 --view errors       every formula against its exact curve
 """
@@ -38,7 +38,7 @@ STUDY = "a stability chart"
 STABLE = "#e4e9ee"
 # View frequency: largest relative distance of neighbouring columns, and least number of them
 WIDEST, FEWEST = 0.03, 40
-RESTS = ("white", style.KINDS["inverted"], style.KINDS["down"], "#a9c8a4")  # stable: neither, inverted, hanging, both
+RESTS = ("white", style.KINDS["inverted"], style.KINDS["down"], "#a9c8a4")  # stable: neither, inverted, down, both
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -97,13 +97,13 @@ def draw_growth(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = (
 
 
 def draw_frequency(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = RESTS, legend: bool = True) -> Axes:
-    """Which position is stable at drive frequency Omega: hanging is k = 1/Omega^2, inverted its negative."""
+    """Which position is stable at drive frequency Omega: down is k = 1/Omega^2, inverted its negative."""
     if not chart.attrs.get("odd_harmonics", 1):
         raise BadFile("this view needs a wave form whose second half is its first one with the other sign")
     k = chart["k"].values
-    hanging, inverted = columns_of_both(k)
-    omega = 1 / np.sqrt(k[hanging])
-    both = chart["stable"].values[:, inverted] + 2 * chart["stable"].values[:, hanging]
+    down, inverted = columns_of_both(k)
+    omega = 1 / np.sqrt(k[down])
+    both = chart["stable"].values[:, inverted] + 2 * chart["stable"].values[:, down]
     axes.pcolormesh(omega, chart["m"], both, cmap=ListedColormap(list(colours)), vmin=0, vmax=3, shading="nearest",
                     rasterized=True)
     for name in curve_names(chart, "k"):
@@ -125,17 +125,17 @@ def columns_of_both(k: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     Stability is drawn where it was asked for alone: columns that are farther apart than WIDEST of their frequency are
     left out.
     """
-    hanging = np.flatnonzero(k > 0)[::-1]
-    inverted = np.array([np.abs(k + k[column]).argmin() for column in hanging], dtype=int)
+    down = np.flatnonzero(k > 0)[::-1]
+    inverted = np.array([np.abs(k + k[column]).argmin() for column in down], dtype=int)
     step = np.diff(k).min() if len(k) > 1 else 0
-    paired = np.abs(k[inverted] + k[hanging]) <= 1e-6 * step
-    near = np.append(1 - np.sqrt(k[hanging][1:] / k[hanging][:-1]) < WIDEST,
-                     False) if len(hanging) else np.zeros(0, bool)
+    paired = np.abs(k[inverted] + k[down]) <= 1e-6 * step
+    near = np.append(1 - np.sqrt(k[down][1:] / k[down][:-1]) < WIDEST,
+                     False) if len(down) else np.zeros(0, bool)
     keep = paired & np.logical_and.accumulate(near)
     if keep.sum() < FEWEST:
         raise BadFile("this view needs stability at k and at -k, close enough at small k; a scene with such a chart: "
                       "stability: {k: {min: -0.25, max: 0.25, count: 4001}, m: {min: 0, max: 0.6, count: 400}}")
-    return hanging[keep], inverted[keep]
+    return down[keep], inverted[keep]
 
 
 def draw_trap(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = RESTS, legend: bool = True) -> Axes:

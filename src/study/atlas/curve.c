@@ -120,10 +120,10 @@ void kz_atlas_sign(const kz_atlas *atlas, kz_atlas_curve *curve) {
  * point. */
 static bool is_of_step(const kz_atlas *atlas, const kz_curve_row *row, double share, const kz_cycle *seed) {
   const double *a = row[0].at.place, *b = row[1].at.place;
-  const bool upright = fabs(b[0] - a[0]) < fabs(b[1] - a[1]);
+  const bool steep = fabs(b[0] - a[0]) < fabs(b[1] - a[1]);
   kz_cycle at = kz_atlas_between(row, share);
   memcpy(at.place, seed->place, sizeof at.place);
-  return kz_cycle_locate(&atlas->plane, &at, (double[]){upright, !upright}) &&
+  return kz_cycle_locate(&atlas->plane, &at, (double[]){steep, !steep}) &&
          hypot(at.place[0] - seed->place[0], at.place[1] - seed->place[1]) < SAME_PLACE &&
          kz_atlas_has(atlas, 1, &at, seed, SAME);
 }

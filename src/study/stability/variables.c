@@ -34,7 +34,7 @@ const kz_variable kz_stability_variables[] = {
     CURVE("blackburn_upper", "upper boundary of the inverted state, Blackburn (1992) Eq. (6)"),
     CURVE("blackburn_upper_note", "the same, Blackburn (1992) note 13: 0.450 + 2.22/Omega^2"),
     CURVE("blackburn_tangent", "tangent of exact_2 at k = 1/4, Blackburn (1992): delta = 1/4 - epsilon/2"),
-    CURVE("blackburn_down_upper", "upper boundary of the hanging state, Blackburn (1992) Eq. (6)"),
+    CURVE("blackburn_down_upper", "upper boundary of the down state, Blackburn (1992) Eq. (6)"),
     CURVE("damped_0", "exact lower boundary of the inverted state with damping"),
     CURVE("damped_1", "exact lowest m of the damped tongue from k = 1/4"),
     CURVE("damped_1_upper", "exact highest m of the damped tongue from k = 1/4"),

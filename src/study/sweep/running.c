@@ -1,6 +1,6 @@
-/* Where running states are born without any drive: the motion that leaves the saddle, upright but for the torque, comes
- * back to it a turn later, on a homoclinic orbit. With more torque it passes the saddle and runs on, with less it falls
- * back. */
+/* Where running states are born without any drive: the motion that leaves the saddle, inverted but for the torque,
+ * comes back to it a turn later, on a homoclinic orbit. With more torque it passes the saddle and runs on, with less it
+ * falls back. */
 #include "sweep.h"
 
 enum { SAMPLES = 96, MOST_PERIODS = 4000, HALVINGS = 100 };

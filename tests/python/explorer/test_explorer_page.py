@@ -321,7 +321,7 @@ def test_both_painters_draw_the_same(page, webgl, driver, striped):
     first = np.array(page.pixels())
     assert page.run("explorer.basins.panes[0].painter.kind") == "webgl"
     driver.get("about:blank")
-    plain = Page(driver, striped.address() + "#level=measure&samples=1&shade=settling&painter=2d&middle=hanging")
+    plain = Page(driver, striped.address() + "#level=measure&samples=1&shade=settling&painter=2d&middle=down")
     plain.wait()
     second = np.array(plain.pixels())
     assert plain.run("explorer.basins.panes[0].painter.kind") == "2d" and len(np.unique(second, axis=0)) > 2

@@ -13,17 +13,17 @@ TURN = 2 * np.pi
 
 
 @pytest.mark.extensive
-def test_upright_is_in_the_middle_until_another_choice_which_is_remembered(driver, striped):
+def test_inverted_is_in_the_middle_until_another_choice_which_is_remembered(driver, striped):
     driver.get("about:blank")
     driver.execute_cdp_cmd("Network.clearBrowserCookies", {})
     first = Page(driver, striped.address())
     first.wait()
     assert [first.window()["theta"][edge] for edge in ("min", "max")] == pytest.approx([0, TURN])
-    first.choose("middle", "hanging")
+    first.choose("middle", "down")
     assert first.window()["theta"]["min"] == pytest.approx(-np.pi)
     again = Page(driver, striped.address())
     again.wait()
-    assert again.window()["theta"]["min"] == pytest.approx(-np.pi) and again.run("$('middle').value") == "hanging"
+    assert again.window()["theta"]["min"] == pytest.approx(-np.pi) and again.run("$('middle').value") == "down"
     driver.get("about:blank")
 
 

@@ -126,7 +126,7 @@ def check(said):
 def test_title_list_sentence_and_picture_agree_in_every_state(driver, striped, actions):
     driver.get("about:blank")
     driver.execute_cdp_cmd("Network.clearBrowserCookies", {})
-    page = Page(driver, striped.address() + "#painter=2d&shade=none&samples=1&quality=moving&middle=hanging")
+    page = Page(driver, striped.address() + "#painter=2d&shade=none&samples=1&quality=moving&middle=down")
     page.wait()
     for action in actions:
         done(page, action)

@@ -120,7 +120,7 @@ def test_rest_of_a_square_wave_agrees_with_its_chart(kapitza, tmp_path):
     pendulum = "pendulum: {k: 0.01, damping: 0, m: 0.3, waveform: square}\n"
     (tmp_path / "rest.yaml").write_text(pendulum + "attractors: {velocity: {min: -1, max: 1}}\n")
     said = kapitza("check", "rest.yaml", folder=tmp_path).stdout
-    low, high = (float(word) for word in re.search(r"Rest upside down: stable \(for m from (\S+) to ([0-9.]+)\)",
+    low, high = (float(word) for word in re.search(r"Rest inverted: stable \(for m from (\S+) to ([0-9.]+)\)",
                                                    said).groups())
     with run(kapitza, tmp_path, f"{pendulum}stability:\n  k: {{min: -0.01, max: 0, count: 2}}\n"
              f"  m: {{min: {low}, max: {high}, count: 2}}\n  curves: [hill_1, hill_2]\n") as file:

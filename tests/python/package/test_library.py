@@ -82,7 +82,7 @@ def test_a_run_in_this_process_writes_the_datasets_of_the_program(tmp_path):
     library = load()
     summary = library.ffi.new("char **")
     library.call("kapitza_run", scene.encode(), str(tmp_path / "own.h5").encode(), 0, summary)
-    assert "Rest hanging down: stable" in library.ffi.string(summary[0]).decode()
+    assert "Rest down: stable" in library.ffi.string(summary[0]).decode()
     library.lib.kapitza_free(summary[0])
     done(PROGRAM, "run", ROOT / "scenes" / "small.yaml", "-o", tmp_path / "program.h5")
     own, wanted = datasets(tmp_path / "own.h5"), datasets(tmp_path / "program.h5")

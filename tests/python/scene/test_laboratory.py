@@ -16,7 +16,7 @@ FEW = {"basin.theta.count": 8, "basin.velocity.count": 8, "basin.attractors.star
 
 
 def rest(text):
-    return next(line for line in text.splitlines() if line.startswith("Rest hanging down: "))
+    return next(line for line in text.splitlines() if line.startswith("Rest down: "))
 
 
 def test_it_is_the_pendulum_that_it_says():
@@ -39,9 +39,9 @@ def still(**pendulum):
 
 
 @pytest.mark.parametrize(("amplitude", "words"), [
-    ("8 mm", "upside down: stable (for amplitude from 6.306 mm to 90.9"),
-    ("3 mm", "upside down: unstable (stable for amplitude from 6.306 mm to 90.9"),
-    ("120 mm", "hanging down: unstable (stable for amplitude"),
+    ("8 mm", "inverted: stable (for amplitude from 6.306 mm to 90.9"),
+    ("3 mm", "inverted: unstable (stable for amplitude from 6.306 mm to 90.9"),
+    ("120 mm", "down: unstable (stable for amplitude"),
 ])
 def test_the_first_line_says_what_stands(amplitude, words):
     """6.306 mm: near A = l sqrt(2 k), the classical threshold A omega > sqrt(2 g l), which Q raises a little."""
@@ -56,10 +56,10 @@ def test_the_first_line_says_what_stands(amplitude, words):
 def test_the_rod_stands_at_the_limits_that_are_printed(pendulum, key, unit):
     """0.129 was printed for 0.12905, below which it falls; and positive limits for a negative amplitude."""
     said = rest(kapitza.check(still(**pendulum)).text)
-    limits = re.search(r"upside down: .*? from ([-\d.]+)(?: mm)? to ([-\d.]+)", said).groups()
+    limits = re.search(r"inverted: .*? from ([-\d.]+)(?: mm)? to ([-\d.]+)", said).groups()
     assert [limit.startswith("-") for limit in limits] == [str(pendulum[key]).startswith("-")] * 2
     for limit in limits:
-        assert "upside down: stable" in rest(kapitza.check(still(**pendulum | {key: limit + unit})).text)
+        assert "inverted: stable" in rest(kapitza.check(still(**pendulum | {key: limit + unit})).text)
 
 
 @pytest.mark.parametrize("m, limits", [(0.3, "above 0, up to 0.4638"), (-0.3, "below 0, down to -0.4638"),
@@ -97,7 +97,7 @@ def test_a_velocity_without_a_unit_is_noted(kapitza):
 
 def test_a_run_begins_with_that_line(tmp_path):
     result = kapitza.run(SCENE, set=FEW, progress=False)
-    assert result.summary.startswith("Rest hanging down: stable (for amplitude up to")
+    assert result.summary.startswith("Rest down: stable (for amplitude up to")
     assert result.pendulum["length"] == 0.2 and result.pendulum["pivot_amplitude"] == 0.008
     assert result.pendulum["pivot_frequency"] == pytest.approx(OMEGA) and result.pendulum["quality_factor"] == 20
 
