@@ -18,9 +18,7 @@ module kz_model_pendulum
   real(qp), parameter :: PI = 3.14159265358979323846264338327950288_qp
 
   type, bind(C) :: pendulum_t
-    real(c_double) :: k
-    real(c_double) :: beta
-    real(c_double) :: m
+    real(c_double) :: k, beta, m
     real(c_double) :: torque = 0
     real(c_double) :: torque_amplitude = 0
     real(c_double) :: vertical(2, MOST_HARMONICS) = 0

@@ -62,7 +62,7 @@ void kz_theta_rules(kz_reading *reading, kz_axis *theta, const char *path) {
                 kz_shortest(theta->max).text, kz_shortest(theta->max - theta->min).text, kz_shortest(theta->max).text);
 }
 
-void kz_ends_rules(kz_reading *reading, const kz_axis *axis, const char *path) {
+void kz_axis_ends_rules(kz_reading *reading, const kz_axis *axis, const char *path) {
   if (axis->count == 1 && axis->max != axis->min)
     kz_complain(reading, kz_key_in(path, "max").text, "%s differs from min = %s; they must be equal because count is 1",
                 kz_shortest(axis->max).text, kz_shortest(axis->min).text);

@@ -99,7 +99,7 @@ static void stability_axis_rules(kz_reading *reading, kz_axis *axis, const char 
     return;
   }
   if (axis->count == KZ_UNSET_INTEGER) axis->count = 1000;
-  kz_ends_rules(reading, axis, path);
+  kz_axis_ends_rules(reading, axis, path);
 }
 
 static void stability_rules(kz_reading *reading, kz_scene *scene) {

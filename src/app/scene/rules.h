@@ -14,7 +14,7 @@ void kz_axis_set(kz_reading *reading, const kz_basin_plan *plan, kz_edges edges,
 /* The scene gives both edges or neither; neither means the whole circle. */
 void kz_theta_rules(kz_reading *reading, kz_axis *theta, const char *path);
 /* Values from min to max, both included; if they are equal, there must be one value. */
-void kz_ends_rules(kz_reading *reading, const kz_axis *axis, const char *path);
+void kz_axis_ends_rules(kz_reading *reading, const kz_axis *axis, const char *path);
 
 /* Computes k, beta, m from the form that the scene uses; they are complete only if the reading has no complaint. One
  * complaint names all keys that a laboratory's pendulum lacks. */

@@ -60,8 +60,7 @@ contains
   !> may have a region at one of its strobe points alone. Covers are looked at in every period.
   pure function apart(attractors) result(periods)
     type(attractor_t), intent(in) :: attractors(:)
-    integer :: periods
-    integer :: i
+    integer :: periods, i
 
     periods = 1
     if (any(attractors%period <= 0)) return

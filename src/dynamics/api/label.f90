@@ -20,8 +20,7 @@ module kz_api_label
 
   !> kz_start of dynamics_labels.h.
   type, bind(C) :: start_t
-    real(dp) :: theta(2)
-    real(dp) :: velocity(2)
+    real(dp) :: theta(2), velocity(2)
     integer(c_int64_t) :: periods
     real(dp) :: error(3)
     real(dp) :: from = 0

@@ -117,8 +117,7 @@ contains
   function own_velocity(flow, curve) result(mean)
     class(flow_t), intent(inout) :: flow
     type(curve_t), intent(in) :: curve
-    real(dp) :: mean
-    real(dp) :: u(NODES), v(NODES), physical(NODES)
+    real(dp) :: mean, u(NODES), v(NODES), physical(NODES)
     logical :: found
     integer :: j
 

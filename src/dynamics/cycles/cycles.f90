@@ -38,11 +38,9 @@ module kz_cycles_cycles
 
   !> An attractor. Strobe points are in the order of time.
   type, extends(numbers_t) :: attractor_t
-    real(dp), allocatable :: u(:)
-    real(dp), allocatable :: v(:)
+    real(dp), allocatable :: u(:), v(:)
     !> Strobe points in the coordinates of the flow that labels (`enter_points`): half-turns, rad per drive radian
-    real(dp), allocatable :: kernel_u(:)
-    real(dp), allocatable :: kernel_v(:)
+    real(dp), allocatable :: kernel_u(:), kernel_v(:)
     !> Trapping ellipse of each point: form(1) du**2 + 2 form(2) du dv + form(3) dv**2 < 1; form = 0: none
     real(dp), allocatable :: form(:, :)
     !> Cells of the cover of an attractor without a period

@@ -127,7 +127,7 @@ contains
   end function find_zero
 
   !> The logarithm of how many times narrower than THINNEST the band of attractors beside a curve is, where rounding
-  !> hides it: kz_atlas_band of study/atlas.
+  !> hides it.
   pure real(dp) function thinness(system, form)
     type(system_t), intent(in) :: system !< at a point of the curve
     type(form_t), intent(in) :: form

@@ -53,8 +53,7 @@ module kz_labels_carrier
     !> Net turns of a lane of `flow`.
     procedure :: turns_of
     !> Lanes first .. n become visible after they have been put.
-    procedure :: to_map
-    procedure :: move
+    procedure :: to_map, move
     !> One period of the lanes 1 .. n.
     procedure :: advance
   end type carrier_t

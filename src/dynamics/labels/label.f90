@@ -24,10 +24,7 @@ module kz_labels_label
     integer(c_int64_t) :: most(CAPACITY) = 0 !< periods that the start of a lane is followed at most
     integer :: apart = 1 !< periods from one look at the regions to the next
   contains
-    procedure :: admit
-    procedure :: advance
-    procedure :: is_done
-    procedure :: move
+    procedure :: admit, advance, is_done, move
   end type starts_t
 
 contains

@@ -69,8 +69,7 @@ contains
   !> The ends of the diameters of the ellipse SAFETY**2 P, rad.
   pure function rim_of(p) result(rim)
     real(dp), intent(in) :: p(3)
-    real(dp) :: rim(2, POINTS)
-    real(dp) :: axes(3)
+    real(dp) :: rim(2, POINTS), axes(3)
 
     axes = axes_of(p)
     rim(1, 1:5:2) = SAFETY*axes(1)*DIAMETERS(1, :)
@@ -81,8 +80,7 @@ contains
   !> Distance of a diameter's ends from their images by the tangent map; the larger one.
   pure function quadratic_of(tangent, start, by) result(q)
     real(dp), intent(in) :: tangent(4), start(2, 2), by(2, 2)
-    real(dp) :: q(2)
-    real(dp) :: rest(2, 2)
+    real(dp) :: q(2), rest(2, 2)
 
     rest(1, :) = by(1, :) - (tangent(1)*start(1, :) + tangent(2)*start(2, :))
     rest(2, :) = by(2, :) - (tangent(3)*start(1, :) + tangent(4)*start(2, :))

@@ -73,10 +73,7 @@ module kz_labels_orbits
     integer(c_int64_t) :: since(CAPACITY) = 0 !< from that age on
     logical :: doubted(CAPACITY) = .false.
   contains
-    procedure :: admit
-    procedure :: advance
-    procedure :: is_done
-    procedure :: move
+    procedure :: admit, advance, is_done, move
   end type orbits_t
 
 contains

@@ -30,10 +30,7 @@ module kz_labels_turns
     integer(c_int64_t) :: number(WIDTH) = 0 !< decision of a lane
     integer(c_int64_t) :: age(WIDTH) = 0 !< periods since it entered
   contains
-    procedure :: fill
-    procedure :: advance
-    procedure :: is_done
-    procedure :: move
+    procedure :: fill, advance, is_done, move
   end type motions_t
 
 contains

@@ -40,10 +40,7 @@ module kz_live_moving
     integer(int32), allocatable :: path(:, :) !< cells visited so far
     type(visits_t) :: visits
   contains
-    procedure :: fill
-    procedure :: advance
-    procedure :: is_done
-    procedure :: move
+    procedure :: fill, advance, is_done, move
   end type visitors_t
 
 contains
@@ -69,8 +66,7 @@ contains
 
   !> unlike = 0 where all neighbours of a cell of the row in the middle have its attractor. Uses vectors.
   pure subroutine compare(n, row, unlike)
-    integer, intent(in) :: n
-    integer, intent(in) :: row(0:n + 1, 3)
+    integer, intent(in) :: n, row(0:n + 1, 3)
     integer, intent(out) :: unlike(n)
     integer :: i, y
 
@@ -87,8 +83,7 @@ contains
   pure function attractor_at(regions, column, row) result(a)
     type(regions_t), intent(in) :: regions
     integer, intent(in) :: column, row
-    integer :: a
-    integer :: i, l
+    integer :: a, i, l
     logical :: mirrored
 
     i = column

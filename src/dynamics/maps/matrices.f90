@@ -25,8 +25,7 @@ contains
   pure function solved(matrix, residual) result(step)
     real(dp), intent(in) :: matrix(2, 2) !< derivative of the map, 1 more than the matrix of the equations
     real(dp), intent(in) :: residual(2) !< their right-hand side
-    real(dp) :: step(2)
-    real(dp) :: a, b, c, d
+    real(dp) :: step(2), a, b, c, d
 
     a = matrix(1, 1) - 1
     b = matrix(1, 2)

@@ -52,10 +52,7 @@ module kz_plane_ends
     type(motion_t), allocatable :: unsettled(:) !< motions that have gone on for too long
     type(ending_t), pointer :: endings(:) => null()
   contains
-    procedure :: fill
-    procedure :: advance
-    procedure :: is_done
-    procedure :: move
+    procedure :: fill, advance, is_done, move
   end type motions_t
 
 contains

@@ -14,13 +14,9 @@ module kz_plane_recurrence
     integer :: longest = 0               !< periods that are remembered
     integer :: latest = 0                !< place of the newest points in the ring
     integer :: known(WIDTH) = 0          !< points of each lane
-    real(dp), allocatable :: u(:, :)
-    real(dp), allocatable :: v(:, :)
+    real(dp), allocatable :: u(:, :), v(:, :)
   contains
-    procedure :: begin
-    procedure :: note
-    procedure :: move
-    procedure :: find
+    procedure :: begin, note, move, find
   end type past_t
 
 contains

@@ -187,8 +187,7 @@ contains
     type(cycle_t), intent(in) :: saddle
     type(arc_t), intent(inout) :: arc
     real(dp) :: start(2), turned(WIDTH)
-    integer :: left(WIDTH)
-    integer :: from, lanes, i, period
+    integer :: left(WIDTH), from, lanes, i, period
 
     if (allocated(arc%x)) deallocate (arc%x)
     allocate (arc%x(2, size(arc%place)))

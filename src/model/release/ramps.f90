@@ -12,10 +12,7 @@ module kz_release_ramps
   real(qp), parameter :: TWO_PI = 6.28318530717958647692528676655900577_qp
   !> kz_release of model_release.h.
   type, bind(C) :: release_t
-    real(c_double) :: phase
-    real(c_double) :: periods
-    real(c_double) :: damping
-    real(c_double) :: drive
+    real(c_double) :: phase, periods, damping, drive
     integer(c_int32_t) :: smooth
   end type release_t
 
@@ -81,8 +78,7 @@ contains
     real(c_double), intent(in) :: periods
     logical, intent(in) :: is_smooth
     real(qp), intent(in) :: turn, width
-    real(qp) :: series(0:CUBIC)
-    real(qp) :: s, d
+    real(qp) :: series(0:CUBIC), s, d
 
     series = 0
     s = turn/periods
@@ -96,8 +92,7 @@ contains
 
   !> A `course` of kz_model_stretch; along: periods, damping, drive, 1 = smooth.
   pure subroutine on_ramp(along, beta, turn, width, damping, drive)
-    real(c_double), intent(in) :: along(4)
-    real(c_double), intent(in) :: beta
+    real(c_double), intent(in) :: along(4), beta
     real(qp), intent(in) :: turn, width
     real(qp), intent(out) :: damping(0:CUBIC), drive(0:CUBIC)
     real(qp) :: rest(0:CUBIC)

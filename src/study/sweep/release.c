@@ -15,8 +15,8 @@ static const double SHRUNK = 6;
 static const double LOCATED = 1e-9;
 
 /* Follows the releases period by period; one that is more than half a turn from inverted has gone over the bottom. */
-void kz_release_from_rest(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle,
-                          uint8_t *stays) {
+void kz_sweep_releases(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle,
+                       uint8_t *stays) {
   const double enough = pendulum->beta > 0 ? SHRUNK / (M_PI * pendulum->beta) : LONGEST;
   const int64_t periods = (int64_t)fmin(fmax(ceil(enough), SHORTEST), LONGEST);
   kz_flow *flow = kz_flow_create(pendulum, numerics);
@@ -65,7 +65,7 @@ static double release_locate(const kz_pendulum *pendulum, const kz_numerics *num
     const double step = (outside - inside) / (BRACKET + 1), from = inside;
     int first = outermost ? BRACKET : 0; /* index of the failing one */
     for (int i = 0; i < BRACKET; i++) angle[i] = from + step * (i + 1);
-    kz_release_from_rest(pendulum, numerics, BRACKET, angle, stays);
+    kz_sweep_releases(pendulum, numerics, BRACKET, angle, stays);
     while (!outermost && first < BRACKET && stays[first]) first++;
     while (outermost && first > 0 && !stays[first - 1]) first--;
     if (first < BRACKET) outside = angle[first];
@@ -82,7 +82,7 @@ static double release_scan(const kz_pendulum *pendulum, const kz_numerics *numer
   while (outside - inside > LOCATED) {
     const double middle = (inside + outside) / 2;
     uint8_t here;
-    kz_release_from_rest(pendulum, numerics, 1, &middle, &here);
+    kz_sweep_releases(pendulum, numerics, 1, &middle, &here);
     *(here ? &inside : &outside) = middle;
   }
   return inside;
@@ -95,7 +95,7 @@ static double first_failure(const kz_pendulum *pendulum, const kz_numerics *nume
   KZ_AUTOFREE double *angle = kz_malloc((size_t)n * sizeof *angle);
   KZ_AUTOFREE uint8_t *stays = kz_malloc((size_t)n);
   for (int64_t i = 0; i < n; i++) angle[i] = (double)(i + 1) * step;
-  kz_release_from_rest(pendulum, numerics, n, angle, stays);
+  kz_sweep_releases(pendulum, numerics, n, angle, stays);
   for (int64_t i = 0; i < n; i++)
     if (!stays[i]) return angle[i];
   return outside;
@@ -121,7 +121,7 @@ static kz_status release_tile(void *context, int64_t tile, void *record) {
   out->first = out->scan = out->largest = NAN;
   if (!kz_sweep_pendulum(scene, kz_sweep_value(scene->sweep, tile), &pendulum)) return KZ_OK;
   for (int64_t i = 0; i < HALF_DEGREES; i++) angle[i] = half_degrees(i);
-  kz_release_from_rest(&pendulum, &scene->numerics, HALF_DEGREES, angle, out->stays);
+  kz_sweep_releases(&pendulum, &scene->numerics, HALF_DEGREES, angle, out->stays);
   int64_t first = 0, last = HALF_DEGREES - 1;
   while (first < HALF_DEGREES && out->stays[first]) first++;
   while (last >= 0 && !out->stays[last]) last--;

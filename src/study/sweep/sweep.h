@@ -147,8 +147,8 @@ kz_status kz_sweep_stage(const kz_run *run, const kz_stage *stage, kz_records_fn
 
 /* Releases the pendulum from rest at t = 0, at angle [n] (rad) from inverted. stays [n] = 1 if the motion stays within
  * half a turn of inverted, else 0. */
-void kz_release_from_rest(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle,
-                          uint8_t *stays);
+void kz_sweep_releases(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle,
+                       uint8_t *stays);
 
 /* Prints a warning for each class of speeds whose error is too large, at the value with the largest error. */
 void kz_sweep_warn_steps(const kz_scene *scene, FILE *summary);

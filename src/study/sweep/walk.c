@@ -1,4 +1,4 @@
-/* One cycle carried along a parameter, with its events: the continuation of the atlas in one key. */
+/* One cycle carried along a parameter, with its events. */
 #include "numerics/parent.h"
 #include "sweep.h"
 

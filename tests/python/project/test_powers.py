@@ -68,6 +68,17 @@ def test_the_core_calls_no_power():
                           if kind == "U" and name in place and name not in registered)
 
 
+def test_the_core_names_no_power():
+    """In no code or comment: neither what begins with the name of a power, nor its folders."""
+    folders = [folder for lists in powers().values() for folder in lists["FOLDERS"] if "/" in folder]
+    named = re.compile(rf"\bkz_({'|'.join(powers())})_\w+|\b({'|'.join(folders)})\b")
+    texts = {path: path.read_text() for folder in (SOURCES, ROOT / "include") for path in folder.rglob("*")
+             if path.suffix in {".c", ".h", ".f90", ".inc"}}
+    core = {path: text for path, text in texts.items() if power_of(path) is None}
+    assert len(core) > 200 and any(named.search(text) for text in texts.values())
+    assert {path.name: named.search(text)[0] for path, text in core.items() if named.search(text)} == {}
+
+
 @pytest.fixture(scope="session")
 def core():
     """The program without powers; scripts/test has built it."""

@@ -136,8 +136,7 @@ contains
   !> The velocities of both sides of a band at an angle, on straight pieces between nodes.
   pure function sides_at(band, u) result(v)
     real(dp), intent(in) :: band(:, :), u !< half-turns in [-1, 1]
-    real(dp) :: v(2)
-    real(dp) :: x
+    real(dp) :: v(2), x
     integer :: i, j, n
 
     n = size(band, 2)

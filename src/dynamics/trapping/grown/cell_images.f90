@@ -27,10 +27,7 @@ module kz_grown_cell_images
     real(dp), allocatable :: slack_y(:, :)
     !> Boxes around the images of the cells (0 : n_theta - 1, 0 : n_velocity - 1), whole cells. left: column on the
     !> circle, from 0; n_columns = 0: the image is too large, or reaches beyond the grid's velocities
-    integer(int32), allocatable :: left(:, :)
-    integer(int32), allocatable :: n_columns(:, :)
-    integer(int32), allocatable :: bottom(:, :)
-    integer(int32), allocatable :: top(:, :)
+    integer(int32), allocatable :: left(:, :), n_columns(:, :), bottom(:, :), top(:, :)
   end type images_t
 
   !> Images of the corners of a cell, and what they may be off by between the corners, in cells.

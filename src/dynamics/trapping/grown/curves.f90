@@ -229,8 +229,7 @@ contains
   !> The mean number of turns in a period along a curve.
   pure function mean_turns(curve) result(mean)
     type(curve_t), intent(in) :: curve !< curve from find_band
-    real(dp) :: mean
-    real(dp) :: shift(NODES), u, step, weight, weights
+    real(dp) :: mean, shift(NODES), u, step, weight, weights
     integer :: period, j
 
     shift = curve%image(1, :) - [(node(j), j=1, NODES)]
@@ -250,8 +249,7 @@ contains
   !> By how much a period turns the state of a curve at the angle u, from those of the nodes.
   pure function shift_at(shift, u) result(turned)
     real(dp), intent(in) :: shift(NODES), u !< half-turns
-    real(dp) :: turned
-    real(dp) :: x, y(4)
+    real(dp) :: turned, x, y(4)
     integer :: i, k
 
     x = (u + 1)*(NODES/2)

@@ -80,8 +80,7 @@ contains
     type(attractor_t), intent(in) :: attractor !< the attractor
     integer, intent(in) :: j !< strobe point, from 1
     real(dp), intent(in) :: u, v !< half-turns in [-1, 1], rad per drive radian
-    real(dp) :: square
-    real(dp) :: du, dv
+    real(dp) :: square, du, dv
 
     du = angle_difference(u, attractor%kernel_u(j))
     dv = v - attractor%kernel_v(j)
@@ -251,8 +250,7 @@ contains
   !> whose first ring is not small against this distance: it would not decide at which of the two an orbit ends.
   pure function clearance(site, attractor, others) result(distance)
     type(site_t), intent(in) :: site
-    type(attractor_t), intent(in) :: attractor
-    type(attractor_t), intent(in) :: others(:)
+    type(attractor_t), intent(in) :: attractor, others(:)
     real(dp) :: distance
     integer :: a
 
@@ -270,8 +268,7 @@ contains
     class(flow_t), intent(inout) :: flow
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
-    real(dp) :: matrix(2, 2)
-    real(dp) :: tangent(2, 2, WIDTH)
+    real(dp) :: matrix(2, 2), tangent(2, 2, WIDTH)
 
     call flow%put(1, attractor%u(j), attractor%v(j))
     tangent(:, :, 1) = IDENTITY

@@ -239,8 +239,7 @@ contains
     type(images_t), intent(in) :: images
     integer, intent(in) :: i, l
     integer(int8), intent(in) :: a
-    integer :: blocker
-    integer :: corner, x, y, column, row
+    integer :: blocker, corner, x, y, column, row
 
     blocker = 0
     do corner = 1, 3
