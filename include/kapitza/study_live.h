@@ -47,7 +47,7 @@ size_t kz_plane_bytes(int plane);
 /* How a frame is made, and where it goes. */
 typedef struct {
   bool moving;                   /* true: fast, error per period well below a cell; false: as method exact */
-  const kz_integers *coarseness; /* 8, 4, 2 or 1, falling */
+  const kz_integers *coarseness; /* coarseness of each raster: 8, 4, 2 or 1, falling */
   bool plane[KZ_PLANES];         /* the planes to show */
   kz_atlas *atlas; /* atlas whose cycles at the point x, y of the scene's pendulum need no search; NULL: none */
   double x, y;     /* values of its two keys */

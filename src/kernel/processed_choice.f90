@@ -41,7 +41,7 @@ module kz_kernel_processed_choice
 
 contains
 
-  !> kz_numerics_choose of kernel.h.
+  !> Implements kz_numerics_choose of kernel.h.
   integer(c_int32_t) function choose_numerics(pendulum, tolerance, fastest, numerics, error) &
       bind(C, name='kz_numerics_choose') result(status)
     type(pendulum_t), intent(in) :: pendulum

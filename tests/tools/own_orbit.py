@@ -186,7 +186,7 @@ class Difference:
                       if size > 1e-300 else size.denominator.bit_length() - size.numerator.bit_length())
         self.first, self.place = self.scale, [fixed(value * 2**self.scale, OWN_BITS) for value in offset]
 
-    def beginning(self, theta, bits):
+    def starting_state(self, theta, bits):
         """Changes of sine and cosine: 2 cos(theta + d/2) sin(d/2) and -2 sin(theta + d/2) sin(d/2)."""
         with mpmath.workprec(OWN_BITS + 20):
             half = mpmath.ldexp(mpmath.mpf(self.place[0]), -OWN_BITS - self.scale - 1)
@@ -198,7 +198,7 @@ class Difference:
     def step(self, steps, theta, rows):
         """Through a step of the common orbit, from its angle there and its series of speed, sine, cosine and force."""
         w, s, c, force, across = rows
-        a, b = self.beginning(theta, steps.bits)
+        a, b = self.starting_state(theta, steps.bits)
         h, damping = steps.h >> steps.bits - OWN_BITS, steps.damping >> steps.bits - OWN_BITS
         u, sine, cosine = [self.place[1] * h >> OWN_BITS], [], []
         while len(u) < 3 or any(abs(row[-1]) + abs(row[-2]) > 2 for row in (u, a, b)):

@@ -27,7 +27,7 @@ MOST_POINTS = 20000
 PARALLEL = 1e-9      # last step of Newton's method, as a place
 
 
-class Lost(ValueError):
+class BranchLost(ValueError):
     """A cycle ends, or is no saddle, at a value of the parameter."""
 
 
@@ -76,17 +76,17 @@ class Branch:
 
 def branch_of(pendulum: "Pendulum", point: Reals, period: int, side: int, *, stable: bool,
               distance: float = DISTANCE) -> Branch:
-    """The branch from a strobe point of a cycle to one side (1 or -1). Lost if the cycle is no saddle."""
+    """The branch from a strobe point of a cycle to one side (1 or -1). BranchLost if the cycle is no saddle."""
     sign = -1 if stable else 1
     (a, b), (c, d) = np.asarray(pendulum.map(point[0], point[1], sign * period, tangent=True).tangent)
     half, root = (a + d) / 2, ((a + d) / 2) ** 2 - (a * d - b * c)
     if not root > 0:
-        raise Lost("the cycle is no saddle")
+        raise BranchLost("the cycle is no saddle")
     multiplier = half + copysign(root**0.5, half)
     direction = np.array([b, multiplier - a]) if hypot(b, multiplier
                                                        - a) >= abs(multiplier - d) else np.array([multiplier - d, c])
     if not abs(multiplier) > 1:
-        raise Lost("the cycle is no saddle")
+        raise BranchLost("the cycle is no saddle")
     twice = 2 if multiplier < 0 else 1
     direction *= side / hypot(*direction)
     return Branch(pendulum, np.array(point, dtype=float), direction, abs(multiplier) ** twice, sign * twice * period,

@@ -18,7 +18,7 @@ import xarray
 from scipy.optimize import brentq
 
 from kapitza import layout
-from kapitza.boundaries.branch import DISTANCE, Branch, Lost, Reals, branch_of, crossing, distance_between
+from kapitza.boundaries.branch import DISTANCE, Branch, BranchLost, Reals, branch_of, crossing, distance_between
 from kapitza.scene import SYMBOLS
 
 if TYPE_CHECKING:
@@ -54,9 +54,9 @@ class Search:
                 try:
                     cycle = moved.cycle(float(points[0, 0]), float(points[0, 1]), len(points), within=0.5)
                 except ValueError as error:
-                    raise Lost("a cycle ends") from error
+                    raise BranchLost("a cycle ends") from error
                 if int(cycle.period) != len(points):
-                    raise Lost("a cycle ends")
+                    raise BranchLost("a cycle ends")
                 self.cycles[number] = np.stack([cycle.strobe_theta.values, cycle.strobe_velocity.values],
                                                axis=1)[:len(points)]
         self.value = value

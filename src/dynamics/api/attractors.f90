@@ -14,7 +14,7 @@ module kz_api_attractors
   private
   public :: row_of
 
-  !> kz_find of dynamics.h.
+  !> Implements kz_find of dynamics.h.
   integer(c_int32_t), parameter :: OF_CYCLES = 0, OF_RUNNING = 1
 
 contains

@@ -12,7 +12,7 @@ module kz_api_follow
   implicit none
   private
 
-  !> kz_stepper of dynamics_labels.h.
+  !> Implements kz_stepper of dynamics_labels.h.
   integer(c_int32_t), parameter :: SPARSE = 1, SINGLE = 2, LINEAR = 3
   !> Periods between two looks at the regions of starts that take hundreds of them.
   integer, parameter :: PRIMES(6) = [5, 7, 11, 13, 17, 19]

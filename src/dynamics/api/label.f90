@@ -18,7 +18,7 @@ module kz_api_label
   !> An orbit is followed at the next cheaper level once its error is so many times what that adds in a period.
   real(dp), parameter :: RATIO = 30
 
-  !> kz_start of dynamics_labels.h.
+  !> Memory of kz_start of dynamics_labels.h.
   type, bind(C) :: start_t
     real(dp) :: theta(2), velocity(2)
     integer(c_int64_t) :: periods
@@ -27,7 +27,7 @@ module kz_api_label
     integer(c_int64_t) :: turns = 0
   end type start_t
 
-  !> kz_label_precision of dynamics_labels.h.
+  !> Memory of kz_label_precision of dynamics_labels.h.
   type, bind(C) :: precision_t
     integer(c_int32_t) :: level, before
     logical(c_bool) :: guess

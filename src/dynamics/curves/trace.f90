@@ -14,7 +14,7 @@ module kz_curves_trace
   implicit none
   private
 
-  !> kz_curve_row of dynamics_trace.h.
+  !> Memory of kz_curve_row of dynamics_trace.h.
   type, bind(C) :: row_t
     type(cycle_t) :: at
     real(dp) :: tangent(2)

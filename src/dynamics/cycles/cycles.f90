@@ -170,7 +170,7 @@ contains
   !> = -x(j) to the bit, or exactly down or inverted.
   subroutine symmetrise(sampling_flow, cycle)
     class(flow_t), intent(inout) :: sampling_flow !< a fine flow whose steps are not fused
-    type(attractor_t), intent(inout) :: cycle !< points, winding, period; comes back symmetric where it is
+    type(attractor_t), intent(inout) :: cycle !< in: points, winding, period; out: symmetrised if the cycle is
     real(dp) :: u(1), v(1)
     integer :: n, half
 

@@ -12,7 +12,7 @@ module kz_cycles_described
   private
   public :: attractor_row_t
 
-  !> kz_attractor of dynamics.h.
+  !> Memory of kz_attractor of dynamics.h.
   type, bind(C) :: attractor_row_t
     real(dp) :: theta, velocity
     integer(c_int32_t) :: period, winding, centre, symmetric, mirror, averaged

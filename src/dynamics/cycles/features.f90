@@ -80,7 +80,7 @@ contains
       centre = merge(DOWN, INVERTED, modulo(nearest, 2.0_dp) < 0.5_dp)
   end function centre_of
 
-  !> kz_centre_of of dynamics_cycles.h.
+  !> Implements kz_centre_of of dynamics_cycles.h.
   function centre_of_samples(rotates, n, theta, origin) bind(C, name='kz_centre_of') result(centre)
     integer(c_int32_t), value :: rotates
     integer(c_int64_t), value :: n

@@ -9,7 +9,7 @@ module kz_cycles_normal_forms
   private
   public :: form_t, normal_form
 
-  !> kz_normal_form of dynamics_curves.h.
+  !> Memory of kz_normal_form of dynamics_curves.h.
   type, bind(C) :: form_t
     real(dp) :: coefficient, side(2), vector(2)
   end type form_t

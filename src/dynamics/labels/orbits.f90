@@ -26,7 +26,7 @@ module kz_labels_orbits
   !> Points of an ellipse's rim that a trapping region must hold.
   integer, parameter :: RIM = 8
 
-  !> kz_label of dynamics_labels.h.
+  !> Memory of kz_label of dynamics_labels.h.
   type, bind(C) :: label_t
     integer(c_int64_t) :: periods = 0       !< first period inside a trapping region, or those followed
     integer(c_int16_t) :: label = PENDING   !< attractor from 1, 0 = not settled, DOUBTFUL, PENDING
@@ -38,7 +38,7 @@ module kz_labels_orbits
     integer(c_int32_t) :: zeros = 0
   end type label_t
 
-  !> kz_decision of dynamics_labels.h: a label with the orbit behind it.
+  !> Memory of kz_decision of dynamics_labels.h: a label with the orbit behind it.
   type, bind(C) :: decision_t
     type(label_t) :: end
     logical(c_bool) :: decided = .false.  !< no error changes the label

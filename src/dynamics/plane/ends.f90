@@ -57,7 +57,7 @@ module kz_plane_ends
 
 contains
 
-  !> kz_ends_follow of dynamics_ends.h.
+  !> Implements kz_ends_follow of dynamics_ends.h.
   subroutine ends_follow(n_steps, n, pendulum, start, max_period, max_periods, endings) bind(C, name='kz_ends_follow')
     integer(c_int32_t), value :: n_steps
     integer(c_int64_t), value :: n

@@ -32,7 +32,7 @@ module kz_saddles_lines
   !> rad: when an orbit is closed, when two points of it are one, and how far outside a window its edge still is.
   real(dp), parameter :: CLOSE = 1e-7_dp, ONE = 1e-5_dp, EDGE = 1e-9_dp
 
-  !> kz_line_search of dynamics_saddles.h.
+  !> Memory of kz_line_search of dynamics_saddles.h.
   type, bind(C) :: line_search_t
     integer(c_int64_t) :: max_period, most_starts, most
     real(dp) :: window(4), steepest
@@ -51,7 +51,7 @@ module kz_saddles_lines
 
 contains
 
-  !> kz_dynamics_search_line of dynamics_saddles.h.
+  !> Implements kz_dynamics_search_line of dynamics_saddles.h.
   function search_line(pendulum, asked, n_nodes, node, found, work) bind(C, name='kz_dynamics_search_line') &
       result(n_found)
     type(pendulum_t), intent(in) :: pendulum
@@ -70,7 +70,7 @@ contains
       search%n_waiting = 0
       lanes = min(CELLS + 1, int(n_nodes) - first + 1)
       orbit(:, 0, 0, :lanes) = node(:, first:first + lanes - 1)
-      call follow(search%flow, search%symmetry, orbit(:, :, :, :lanes))
+      call follow_images(search%flow, search%symmetry, orbit(:, :, :, :lanes))
       do i = 1, lanes - 1
         call look_between(search, orbit(:, :, :, i), orbit(:, :, :, i + 1), found)
       end do
@@ -114,7 +114,7 @@ contains
         after(:, :, :, :lanes) = piece(:, :, :, 2, :)
       end associate
       orbit(:, 0, 0, :lanes) = 0.5_dp*(before(:, 0, 0, :lanes) + after(:, 0, 0, :lanes))
-      call follow(search%flow, search%symmetry, orbit(:, :, :, :lanes))
+      call follow_images(search%flow, search%symmetry, orbit(:, :, :, :lanes))
       search%work(1) = search%work(1) + lanes
       do i = 1, lanes
         call look_between(search, before(:, :, :, i), orbit(:, :, :, i), found)
@@ -190,7 +190,7 @@ contains
   end subroutine close_pass
 
   !> Images of the starts orbit(:, 0, 0), rad, turns counted: orbit(:, 0, n) = F^n, orbit(:, 1, n) its symmetric image.
-  subroutine follow(flow, symmetry, orbit)
+  subroutine follow_images(flow, symmetry, orbit)
     class(flow_t), intent(inout) :: flow !< its steps are not fused, where images are half a period later
     integer, intent(in) :: symmetry !< MIRROR, HALF_PERIOD or 0
     real(dp), intent(inout) :: orbit(:, 0:, 0:, :)
@@ -214,7 +214,7 @@ contains
       orbit(2, 0, n, :) = flow%v(:lanes)
     end do
     if (symmetry == MIRROR) orbit(:, 1, :, :) = -orbit(:, 0, :, :)
-  end subroutine follow
+  end subroutine follow_images
 
   !> Does the image of a short piece pass near the piece, and where: its share of the piece from the first end on.
   pure subroutine find_pass(a, b, image_a, image_b, share, near)
@@ -268,7 +268,7 @@ contains
 
   !> Whether the image of a closed orbit under a symmetry is that orbit.
   function is_own_image(flow, symmetry, x) result(own)
-    class(flow_t), intent(inout) :: flow !< as `follow` has it
+    class(flow_t), intent(inout) :: flow !< as `follow_images` has it
     integer, intent(in) :: symmetry
     real(dp), intent(in) :: x(:, :) !< half-turns, rad per drive radian
     logical :: own

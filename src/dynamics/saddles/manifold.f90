@@ -21,7 +21,7 @@ module kz_saddles_manifold
   !> Points of the first arc; drive periods after which a branch ends that stays short.
   integer, parameter :: FIRST_POINTS = 33, MOST_PERIODS = 1000
 
-  !> kz_branch of dynamics.h.
+  !> Memory of kz_branch of dynamics.h.
   type, bind(C) :: branch_t
     real(dp) :: theta, velocity
     integer(c_int32_t) :: period, stable, side
@@ -47,7 +47,7 @@ module kz_saddles_manifold
 
 contains
 
-  !> kz_manifold_grow of dynamics.h.
+  !> Implements kz_manifold_grow of dynamics.h.
   function grow(pendulum, branch, most, point) bind(C, name='kz_manifold_grow') result(n_points)
     type(pendulum_t), intent(in) :: pendulum
     type(branch_t), intent(in) :: branch

@@ -12,7 +12,7 @@ static void read_series(const kz_number *from, int64_t last, int64_t n, long_ser
   for (int64_t j = 0; j < n; j++) to[j] = j <= last ? kz_number_long(from + j) : 0;
 }
 
-/* out += factor a b. */
+/* Adds factor a b to out. */
 static void add_product(int64_t n, long double factor, const long_series a, const long_series b, long_series out) {
   for (int64_t i = 0; i < n; i++) {
     long double sum = 0;
@@ -118,7 +118,7 @@ static int64_t orders_of(const kz_series *s, int64_t tangent_orders, int columns
   return n + MORE < KZ_LONG_ORDERS ? n + MORE : KZ_LONG_ORDERS;
 }
 
-/* out += along by[0] + sign across by[1]. */
+/* Adds along by[0] + sign across by[1] to out. */
 static void add_force(const kz_series *series, const kz_steps *steps, int64_t orders, int64_t n, int sign,
                       const kz_number *const by[2], long_series out) {
   long_series force = {0}, factor = {0};

@@ -37,7 +37,7 @@ contains
 
   include 'vector/sine.inc'
 
-  !> kz_path_forces of kernel_paths.h.
+  !> Implements kz_path_forces of kernel_paths.h.
   subroutine path_forces(pendulum, n, share, force) bind(C, name='kz_path_forces')
     type(pendulum_t), intent(in) :: pendulum
     integer(c_int32_t), value :: n
@@ -53,7 +53,7 @@ contains
     end do
   end subroutine path_forces
 
-  !> kz_hamilton_create of kernel_paths.h.
+  !> Implements kz_hamilton_create of kernel_paths.h.
   function hamilton_create(pendulum, n_steps) bind(C, name='kz_hamilton_create') result(handle)
     type(pendulum_t), intent(in) :: pendulum(0:2)
     integer(c_int32_t), value :: n_steps
@@ -72,7 +72,7 @@ contains
     handle = c_loc(flow)
   end function hamilton_create
 
-  !> kz_hamilton_free of kernel_paths.h.
+  !> Implements kz_hamilton_free of kernel_paths.h.
   subroutine hamilton_free(handle) bind(C, name='kz_hamilton_free')
     type(c_ptr), value :: handle
     type(hamilton_t), pointer :: flow
@@ -137,7 +137,7 @@ contains
     end do
   end function linear_flow
 
-  !> kz_hamilton_advance of kernel_paths.h.
+  !> Implements kz_hamilton_advance of kernel_paths.h.
   subroutine hamilton_advance(handle, n, state, with_tangent, tangent, with_integral, integral) &
       bind(C, name='kz_hamilton_advance')
     type(c_ptr), value :: handle
@@ -163,7 +163,7 @@ contains
     end do
   end subroutine hamilton_advance
 
-  !> kz_hamilton_sample of kernel_paths.h.
+  !> Implements kz_hamilton_sample of kernel_paths.h.
   subroutine hamilton_sample(handle, samples, n, state, sample) bind(C, name='kz_hamilton_sample')
     type(c_ptr), value :: handle
     integer(c_int32_t), value :: samples

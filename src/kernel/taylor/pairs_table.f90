@@ -35,12 +35,12 @@ module kz_taylor_pairs_table
   !> A coefficient is a pair if rounding it to a double would change a period by more than this share of the tolerance.
   real(c_double), parameter :: NEGLIGIBLE = 0.01_c_double
 
-  !> kz_pair_lanes of pairs.c: high and low.
+  !> Memory of kz_pair_lanes of pairs.c: high and low.
   type, bind(C) :: pair_lanes_t
     real(c_double) :: u(WIDTH, 2), v(WIDTH, 2) !< half-turns in [-1, 1]; rad per drive radian
   end type pair_lanes_t
 
-  !> kz_displacement of pairs.c.
+  !> Memory of kz_displacement of pairs.c.
   type, bind(C) :: displacement_t
     real(c_double) :: coefficient(2, 0:HALF - 1, 2, 0:HALF - 1, 2, 2) = 0
     integer(c_int64_t) :: pairs(2, 0:HALF - 1, 2, 2) = 0

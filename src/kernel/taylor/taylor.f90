@@ -25,19 +25,19 @@ module kz_taylor_taylor
   !> KZ_TAYLOR_LANES, KZ_TAYLOR_DEEP, KZ_TAYLOR_LAST of taylor_steps.c.
   integer, parameter :: LANES = 8, DEEP_ORDERS = 4, LAST_ORDER = 56
 
-  !> kz_taylor_shared of taylor_steps.c.
+  !> Memory of kz_taylor_shared of taylor_steps.c.
   type, bind(C) :: shared_t
     real(dp) :: high(0:LAST_ORDER - 1), low(0:LAST_ORDER - 1), rest(0:DEEP_ORDERS - 1)
   end type shared_t
 
-  !> kz_taylor_force of taylor_steps.c.
+  !> Memory of kz_taylor_force of taylor_steps.c.
   type, bind(C) :: force_t
     type(shared_t) :: along, across, torque
     real(dp) :: damping(0:CUBIC, 3)
     integer(c_int32_t) :: has_across, is_damping_changing
   end type force_t
 
-  !> kz_taylor_state of taylor_steps.c.
+  !> Memory of kz_taylor_state of taylor_steps.c.
   type, bind(C) :: state_t
     real(dp) :: theta(LANES, 3), w(LANES, 3), s(LANES, 3), c(LANES, 3)
   end type state_t

@@ -25,12 +25,12 @@ module kz_vector_step_search
     !> The error of a period of n steps, rad; huge() where it diverges.
     function measure_error(integrator, n) result(error)
       import :: integrator_t, c_double
-      class(integrator_t), intent(inout) :: integrator !< the integrator
+      class(integrator_t), intent(inout) :: integrator !< numerics of the integrator
       integer, intent(in) :: n !< steps
       real(c_double) :: error
     end function measure_error
 
-    !> kz_step_error of kernel.h.
+    !> Implements kz_step_error of kernel.h.
     function c_measure(n, context) bind(C) result(error)
       import :: c_int32_t, c_ptr, c_double
       integer(c_int32_t), value :: n
@@ -76,7 +76,7 @@ contains
     end do
   end subroutine search_steps
 
-  !> kz_expected_steps of kernel.h.
+  !> Implements kz_expected_steps of kernel.h.
   pure real(c_double) function expected_steps(n, error, tolerance, order) bind(C, name='kz_expected_steps') &
       result(steps)
     integer(c_int32_t), value :: n !< a number of steps
@@ -87,7 +87,7 @@ contains
     steps = n*(error/tolerance)**(1.0_c_double/order)
   end function expected_steps
 
-  !> kz_steps_search of kernel.h.
+  !> Implements kz_steps_search of kernel.h.
   real(c_double) function c_search(function, context, order, tolerance, fewest, most, n) &
       bind(C, name='kz_steps_search') result(error)
     type(c_funptr), value :: function

@@ -10,7 +10,7 @@ module kz_release_ramps
 
   integer, parameter :: qp = real128
   real(qp), parameter :: TWO_PI = 6.28318530717958647692528676655900577_qp
-  !> kz_release of model_release.h.
+  !> Memory of kz_release of model_release.h.
   type, bind(C) :: release_t
     real(c_double) :: phase, periods, damping, drive
     integer(c_int32_t) :: smooth

@@ -21,7 +21,7 @@ static const double FASTEST = 2.5;
 static const double LEAST_BAND = 1e-5, WIDE_BAND = 1e-4;
 enum { TILES = 8, CYCLES_OF_A_TILE = 16 };
 
-/* A place, or a tile of cycles of it. */
+/* A task of the census: a place, or a tile of its cycles. */
 typedef struct {
   const kz_atlas *atlas;
   const kz_atlas_probe *probe;

@@ -87,7 +87,7 @@ typedef struct {
   const int64_t *item; /* NULL: 0, 1, ... */
 } batch;
 
-/* By the states alone. */
+/* Labels items by their states alone. */
 static kz_status follow_states(const batch *b, int64_t first, int64_t n, kz_start *start, kz_decision *decision) {
   const kz_labeller *l = b->labeller;
   KZ_AUTOFREE double *state = kz_malloc(2 * (size_t)n * sizeof *state);

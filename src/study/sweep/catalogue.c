@@ -118,7 +118,7 @@ static kz_status catalogue_collect(const searching *s, kz_sweep_catalogue *catal
   return KZ_OK;
 }
 
-/* The attractors of the window of the grid, or without one of the sweep's own. */
+/* Finds the attractors in the window of the grid, or, without a grid, in the sweep's own. */
 static kz_status sweep_catalogue_discover(searching *s) {
   const kz_sweep_plan *sweep = s->scene->sweep;
   kz_search search = {.window = kz_window_of(&sweep->theta, &sweep->velocity)};

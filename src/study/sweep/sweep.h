@@ -42,7 +42,7 @@ typedef struct {
   int32_t reached;         /* 0: ends at the first value, 1: at the second, -1: at an event */
   int32_t attracts, twice; /* twice: its image branches off with it */
   double step;             /* next step from its end, in distances of the two values */
-  kz_attractor point;      /* where it ends */
+  kz_attractor point;      /* cycle at the end of the piece */
 } kz_sweep_piece;
 enum { KZ_SWEEP_PIECES = 32 };
 typedef struct {
