@@ -1,4 +1,4 @@
-"""Frames of `kapitza serve` on one core: processor time of the program, without that of the reader.
+"""Frames of an engine of the library on one core: processor time of its process.
 
 A loop of known arithmetic spins between the frames: on a machine that others load, processor time is longer too, and
 the yardstick tells by how much it varied. Ratios of whole commands against another build are taken in turns
@@ -17,6 +17,8 @@ import time
 from pathlib import Path
 
 import numpy as np
+from kapitza.explorer import process, requests
+from kapitza.explorer.scene import Start
 
 ROOT = Path(__file__).resolve().parents[1]
 PROGRAM = ROOT / "build" / "kapitza"
@@ -55,41 +57,31 @@ RUNS = {
 
 
 class Engine:
-    """A running `kapitza serve` on one core."""
+    """An engine in a process of its own, on one core."""
 
     def __init__(self, core):
-        command = ["taskset", "-c", str(core), str(PROGRAM), "serve", str(SCENE)]
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-        self._receive()
-
-    def _receive(self):
-        header = json.loads(self.process.stdout.readline())
-        self.process.stdout.read(header["bytes"])
-        return header
+        self.view = process.View(requests.Engine, Start(SCENE).engine(), lambda catalogue: None)
+        self.number = self.view._process.pid
+        os.sched_setaffinity(self.number, {core})
 
     def frame(self, rows, columns, **keys):
         """Processor milliseconds of the levels of a frame, by level."""
-        request = {"request": "frame", "rows": rows, "columns": columns, "quality": "moving", **keys}
-        self.process.stdin.write(json.dumps(request).encode() + b"\n")
-        self.process.stdin.flush()
         times = {}
-        while True:
-            header = self._receive()
+        for header, _ in self.view.answers({"request": "frame", "rows": rows, "columns": columns, "quality": "moving",
+                                            **keys}):
             if header["answer"] == "error":
                 sys.exit(header["message"])
             if header["answer"] == "frame":
                 times[header["level"]] = header["milliseconds"]
-            if header["final"]:
-                return times
+        return times
 
     def seconds(self):
-        """Processor time of the program so far, births between frames included."""
-        fields = Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        """Processor time of the process so far, births between frames included."""
+        fields = Path(f"/proc/{self.number}/stat").read_text().rsplit(")", 1)[1].split()
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
     def close(self):
-        self.process.stdin.close()
-        self.process.wait()
+        self.view.close()
 
 
 def spin():

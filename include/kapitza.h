@@ -49,6 +49,16 @@ typedef struct kapitza_pendulum kapitza_pendulum;
  * phase of release. Without `basin` the window is the whole circle and velocities from -2 to 2. Free it by
  * kapitza_pendulum_free. */
 kapitza_status kapitza_pendulum_create(const char *scene, kapitza_pendulum **pendulum);
+
+/* The text of a scene with changes "KEY=VALUE". `name` is that of its file, which messages repeat: "NAME:LINE:COLUMN:
+ * KEY: ...". */
+typedef struct {
+  const char *text, *name;
+  const char *const *sets; /* [n_sets] */
+  int32_t n_sets;
+} kapitza_scene;
+/* Makes the pendulum of such a scene. */
+kapitza_status kapitza_pendulum_open(const kapitza_scene *scene, kapitza_pendulum **pendulum);
 /* Frees a pendulum that no thread uses; NULL: nothing. */
 void kapitza_pendulum_free(kapitza_pendulum *pendulum);
 
@@ -60,6 +70,10 @@ typedef struct {
   int32_t mirrored; /* 1: the mirror image (-theta, -velocity) of every motion is a motion, else 0 */
 } kapitza_parameters;
 kapitza_status kapitza_parameters_of(kapitza_pendulum *pendulum, kapitza_parameters *parameters);
+
+/* Tells between which amplitudes of a sine drive, as m of the pendulum, it stands upside down [0, 1] and flutters [2,
+ * 3]; NaN = at none, or no end is known. */
+kapitza_status kapitza_needs(kapitza_pendulum *pendulum, double amplitude[4]);
 
 /* Moves n states through drive periods, backwards if periods < 0, with the numerics of all published numbers (error
  * some 1e-12 rad a period). In and out: theta [n], out in [-pi, pi); velocity [n]. turns [n] = net turns,
@@ -151,7 +165,7 @@ kapitza_status kapitza_basin_of(kapitza_pendulum *pendulum, const char *window, 
 /* The functions of this section and of the next keep what they have found of the last pendulums, so that the next frame
  * is quick. `change` is the flow text of mappings of a scene, such as "pendulum: {...}, basin: {theta: {min: -3, max:
  * 3, count: 400}, velocity: {centre: 0.2, width: 1e-20, count: 250}}" `pendulum` and `sweep` replace those of the
- * scene, keys of `basin` replace its keys; NULL: nothing is changed. */
+ * scene, keys of `basin` its keys; an axis with `count` alone keeps its window. NULL: nothing is changed. */
 
 /* The known attractors of a pendulum, in the order of ids. */
 typedef struct {
@@ -248,6 +262,22 @@ typedef struct {
  * which count. */
 kapitza_status kapitza_where(kapitza_pendulum *pendulum, const char *change, int64_t n, const char *const *theta,
                              const char *const *velocity, kapitza_endings **endings);
+
+/* Tells where n starts end among the attractors that a run of the scene finds, with the ids of its file. A number with
+ * more digits than a double has counts with all of them, another one as the nearest double; velocities may have a unit
+ * ("3 rad/s"). A message about start N begins with "start N: ". */
+kapitza_status kapitza_where_of(const kapitza_scene *scene, int64_t n, const char *const *theta,
+                                const char *const *velocity, kapitza_endings **endings);
+
+/* The point at which two basins meet on the straight line between two starts: numbers with `digits` right digits (1 to
+ * 900) behind the point. */
+typedef struct {
+  char theta[1024], velocity[1024];
+  char name[2][64];     /* names of the attractors towards the first start, and towards the second */
+  int32_t attractor[2]; /* their ids */
+} kapitza_boundary;
+kapitza_status kapitza_boundary_of(const kapitza_scene *scene, const char *const *theta, const char *const *velocity,
+                                   int64_t digits, kapitza_boundary *boundary);
 
 /* ---- atlases in result files ---- */
 

@@ -30,8 +30,6 @@ typedef struct {
 bool kz_axis_is_deep(const kz_axis *axis);
 /* The number of a decimal text, which may end in " deg"; 0 if the text is not a number. */
 __float128 kz_decimal_quad(const char *text);
-/* Returns the number with all its digits; the result refers to the text of `decimal`. */
-kz_coordinate kz_decimal_coordinate(const kz_decimal *decimal);
 
 /* The edges of a window as the scene gives them; NaN = not given. */
 typedef struct {

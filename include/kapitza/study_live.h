@@ -8,7 +8,6 @@ typedef struct kz_engine kz_engine;
 typedef struct kz_atlas kz_atlas; /* study_atlas.h */
 
 kz_engine *kz_engine_create(void);
-void kz_engine_free(kz_engine *engine);
 
 /* All known attractors of a pendulum; the labels of a frame are ids of `list`. */
 typedef struct {

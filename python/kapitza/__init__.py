@@ -31,7 +31,9 @@ if TYPE_CHECKING:
     from kapitza.pendulum import Pendulum
     from kapitza.program import RunError, SceneError
     from kapitza.result import BadFile, Result
-    from kapitza.session import check, needs, orbit, run, sweep, where
+    from kapitza.session import check, orbit, run, sweep
+    from kapitza.shaker import needs
+    from kapitza.starts import where
 
     __version__: str
 
@@ -45,7 +47,8 @@ _MODULES = {name: module for module, names in {
     "engine": "Engine",
     "explorer.notebook": "explore", "films": "film", "fitting": "fit", "pendulum": "Pendulum",
     "program": "RunError SceneError",
-    "result": "BadFile Result", "session": "check needs orbit run sweep where"}.items() for name in names.split()}
+    "result": "BadFile Result", "session": "check orbit run sweep", "shaker": "needs",
+    "starts": "where"}.items() for name in names.split()}
 
 
 def __getattr__(name: str) -> Any:

@@ -4,7 +4,7 @@ import os
 import signal
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from kapitza.program import RunError, SceneError
 from kapitza.result import BadFile
@@ -24,6 +24,17 @@ def run_script(main: Callable[[], None]) -> None:
         if isinstance(error, BrokenPipeError | OSError):
             _forget_stdout()
         sys.exit(1)
+
+
+def words_of(flags: Sequence[str] = ()) -> list[str]:
+    """The command line that the program passes on, each option in one word with its value, which may begin with -."""
+    words: list[str] = []
+    left = iter(sys.argv[1:])
+    for word in left:
+        if word == "--":
+            return [*words, word, *left]
+        words.append(word if word in flags else f"{word}={next(left)}")
+    return words
 
 
 def run_apart(main: Callable[[], None]) -> None:

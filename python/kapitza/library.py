@@ -4,14 +4,18 @@ failures exceptions."""
 import os
 import re
 import threading
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
-import xarray
 
 from kapitza.program import RunError, SceneError
+from kapitza.scene import passed_on
+
+if TYPE_CHECKING:
+    import xarray
 
 OK, FAILED, REFUSED, NO_MEMORY, STOPPED = 0, 1, 2, 3, 75
 NO_TURNS = -(2**31)
@@ -62,19 +66,37 @@ class Library:
         """The array as an argument; None = NULL."""
         return self.ffi.NULL if array is None else self.ffi.cast(kind, array.ctypes.data)
 
+    def text(self, text: str | bytes | None) -> Any:
+        """A text as an argument, which must be kept until the call has ended; None = NULL."""
+        given = passed_on(text, file_name=True).encode(errors="surrogateescape") if isinstance(text, str) else text
+        return self.ffi.NULL if given is None else self.ffi.from_buffer(given + b"\0")
+
+    def texts(self, texts: Sequence[str]) -> tuple[Any, list[Any]]:
+        """An array of texts as an argument, and what must be kept as long."""
+        kept = [self.text(text) for text in texts]
+        return self.ffi.new("char *[]", kept), kept
+
+    def scene(self, text: str | bytes, name: str, sets: Sequence[str]) -> tuple[Any, list[Any]]:
+        """A kapitza_scene, and what must be kept as long."""
+        array, kept = self.texts(sets)
+        kept += [array, self.text(text), self.text(name)]
+        return self.ffi.new("kapitza_scene *", {"text": kept[-2], "name": kept[-1], "sets": array,
+                                                "n_sets": len(sets)}), kept
+
     def array(self, pointer: Any, count: int, dtype: Any) -> np.ndarray:
         """A copy of `count` numbers."""
         return np.frombuffer(self.ffi.buffer(pointer, count * np.dtype(dtype).itemsize),
                              dtype).copy() if count else np.empty(0, dtype)
 
-    def cycles(self, given: Any, dimension: str) -> xarray.Dataset:
+    def cycles(self, given: Any, dimension: str) -> "xarray.Dataset":
         """A list of attractors or cycles, which is freed, as the group of a file has it."""
         try:
             return self._cycles(given[0], dimension)
         finally:
             self.lib.kapitza_free(given)
 
-    def _cycles(self, listed: Any, dimension: str) -> xarray.Dataset:
+    def _cycles(self, listed: Any, dimension: str) -> "xarray.Dataset":
+        import xarray  # not for the engine of the explorer, which starts sooner without it
         rows = [listed.cycle[index] for index in range(listed.count)]
         points = np.full((2, len(rows), max([row.period for row in rows], default=1) or 1), np.nan)
         for place, row in enumerate(rows):
@@ -102,9 +124,12 @@ def _keep(kind: type, exception: BaseException, traceback: object) -> int:
 
 @cache
 def load() -> Library:
-    """The library of this installation, or the one that the variable KAPITZA_LIBRARY names."""
-    chosen = os.environ.get("KAPITZA_LIBRARY")
-    path, header = Path(chosen) if chosen else _place("libkapitza.so"), _place("kapitza.h")
+    """The library of this installation, that beside the program which the variable KAPITZA names, or that of
+    KAPITZA_LIBRARY."""
+    chosen, beside = os.environ.get("KAPITZA_LIBRARY"), Path(os.environ.get("KAPITZA", "")).with_name("libkapitza.so") \
+        if os.environ.get("KAPITZA") else None
+    path = Path(chosen) if chosen else beside if beside and beside.is_file() else _place("libkapitza.so")
+    header = _place("kapitza.h")
     if not (path.is_file() and header.is_file()):
         raise FileNotFoundError(
             "libkapitza.so is not installed: `pip install .` in its sources builds it, and so does scripts/setup; "

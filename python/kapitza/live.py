@@ -1,5 +1,4 @@
-"""Frames, ends of starts and motions on request, from a pendulum of the library that keeps what it finds: arrays of its
-structures."""
+"""Frames, ends of starts and motions on request, from a pendulum of the library that keeps what it finds."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -7,12 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from kapitza import style
 from kapitza.library import NO_TURNS, Library, load
+from kapitza.motion_kinds import kind
 from kapitza.scene import flow
 
 PLANES = {"labels": np.uint8, "settling_time": np.float32, "smooth_time": np.float32, "doubt": np.uint8,
-          "other": np.uint8, "turns": np.float32, "evidence": np.uint8}  # in the order of kapitza.h
+          "other": np.uint8,
+          "turns": np.float32, "evidence": np.uint8}  # in the order of kapitza.h
 CENTRES = ("down", "inverted", "rotating", "neither")
 LINE = ("value", "height", "theta", "velocity", "multiplier")  # numbers of a point of a branch
 Part = tuple[dict[str, Any], dict[str, np.ndarray]]  # a header, and planes by name
@@ -29,14 +29,38 @@ def change(**mappings: Any) -> str:
 
 
 class Live:
-    """One pendulum of the library with its caches: `scene` is the text of its scene. Threads wait for each other."""
+    """One pendulum of the library with its caches. Threads wait for each other.
 
-    def __init__(self, scene: str) -> None:
+    :param text: of its scene; `name`: of the file in messages; `sets`: changes KEY=VALUE
+    """
+
+    def __init__(self, text: str | bytes, name: str = "scene", sets: Sequence[str] = ()) -> None:
         self._library: Library = load()
+        self._scene = text, name, tuple(sets)
         given = self._library.ffi.new("kapitza_pendulum **")
-        self._library.call("kapitza_pendulum_create", scene.encode(), given)
+        scene, _kept = self._library.scene(*self._scene)
+        self._library.call("kapitza_pendulum_open", scene, given)
         self._own = self._library.ffi.gc(given[0], self._library.lib.kapitza_pendulum_free)
-        self._fault: BaseException | None = None  # raised by a callback
+        self._known: dict[str, Any] = {}  # the last catalogue
+
+    def with_pendulum(self, pendulum: Mapping[str, Any] | None) -> "Live":
+        """One of another pendulum, without caches; None: this one."""
+        text, name, sets = self._scene
+        return self if pendulum is None else Live(text, name, (*sets, f"pendulum={flow(pendulum)}"))
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The numbers of the pendulum, by the names of kapitza_parameters."""
+        numbers = self._library.ffi.new("kapitza_parameters *")
+        self._library.call("kapitza_parameters_of", self._own, numbers)
+        names = ("k", "beta", "m", "quality_factor", "drive_frequency", "drive_amplitude", "pivot_frequency")
+        return {name: float(getattr(numbers, name)) for name in names}
+
+    def needs(self) -> list[float]:
+        """Least and largest drive m at which it stands upside down, and at which it flutters; NaN = none."""
+        amplitude = self._library.ffi.new("double[4]")
+        self._library.call("kapitza_needs", self._own, amplitude)
+        return list(amplitude)
 
     def _given(self, kind: str, name: str, *arguments: Any) -> Iterator[Any]:
         """What a function makes as its last argument; it is freed behind the loop."""
@@ -47,36 +71,39 @@ class Live:
         finally:
             self._library.lib.kapitza_free(place[0])
 
-    def _text(self, text: str | None) -> Any:
-        return self._library.ffi.NULL if text is None else self._library.ffi.from_buffer(text.encode() + b"\0")
+    def _shown(self, name: str, arguments: Sequence[Any], kind: str, show: Callable[[Any], bool],
+               between: Callable[[], bool]) -> bool:
+        """Calls a function that shows parts and asks between them; False if one of these callbacks has ended it."""
 
-    def _callbacks(self, show: str, shown: Callable[[Any], bool], between: Callable[[], bool]) -> tuple[Any, Any]:
-        """Functions as the library calls them; what they raise ends the call."""
-        def keep(kind: type, fault: BaseException, traceback: object) -> int:
-            self._fault = fault
+        faults: list[BaseException | None] = []
+
+        def keep(_kind: type, fault: BaseException, _traceback: object) -> int:
+            faults.append(fault)
             return 1
 
-        callback = self._library.ffi.callback
-        return (callback(show, lambda _, part: not shown(part), error=1, onerror=keep),
-                callback("kapitza_pause", lambda _: not between(), error=1, onerror=keep))
+        def asked(goes_on: bool) -> int:
+            if not goes_on:
+                faults.append(None)
+            return not goes_on
 
-    def _shown(self, name: str, *arguments: Any) -> bool:
-        """Calls a function that has callbacks; False if one of them has ended it."""
-        self._fault = None
+        callback = self._library.ffi.callback
+        functions = (callback(kind, lambda _, part: asked(show(part)), error=1, onerror=keep),
+                     callback("kapitza_pause", lambda _: asked(between()), error=1, onerror=keep))
         try:
-            self._library.call(name, self._own, *arguments, self._library.ffi.NULL)
+            self._library.call(name, self._own, *arguments, *functions, self._library.ffi.NULL)
         except KeyboardInterrupt:
-            if self._fault is None:
-                return False
-            raise self._fault from None
+            if not faults:
+                raise
+            if faults[0] is not None:
+                raise faults[0] from None
+            return False
         return True
 
     def frame(self, show: Callable[[Part], bool], between: Callable[[], bool] = lambda: True, *,
-              changed: str | None = None,
-              planes: Sequence[str] = ("labels",), moving: bool = False, coarseness: Sequence[int] = (1,),
-              atlas: str | None = None, point: Sequence[float] = (0, 0)) -> bool:
+              changed: str | None = None, planes: Sequence[str] = ("labels",), moving: bool = False,
+              coarseness: Sequence[int] = (1,), atlas: str | None = None, point: Sequence[float] = (0, 0)) -> bool:
         """Makes a frame part by part, for `show`; False if `show` or `between` ends it by False."""
-        ffi, texts = self._library.ffi, [self._text(changed), self._text(atlas)]
+        ffi, texts = self._library.ffi, [self._library.text(changed), self._library.text(atlas)]
         request = ffi.new("kapitza_frame_request *", {
             "change": texts[0], "moving": moving, "planes": sum(1 << list(PLANES).index(name) for name in planes),
             "n_parts": len(coarseness), "coarseness": list(coarseness)[:4], "atlas": texts[1], "x": point[0],
@@ -87,7 +114,7 @@ class Live:
             return show((self._raster(part) | header, {name: self._plane(part, part.plane[place], PLANES[name])
                                                        for place, name in enumerate(PLANES) if name in planes}))
 
-        return self._shown("kapitza_frame", request, *self._callbacks("kapitza_show", shown, between))
+        return self._shown("kapitza_frame", [request], "kapitza_show", shown, between)
 
     @staticmethod
     def _raster(part: Any) -> dict[str, Any]:
@@ -100,22 +127,28 @@ class Live:
               coarseness: Sequence[int] = (1,)) -> bool:
         """Draws where one start ends over a plane of two keys, as `frame` does."""
         def shown(part: Any) -> bool:
-            return show((self._raster(part),
-                         {name: self._plane(part, getattr(part, name), np.uint8) for name in ("period", "centre")}))
+            return show((self._raster(part), {name: self._plane(part, getattr(part, name), np.uint8)
+                                              for name in ("period", "centre")}))
 
         steps = self._library.ffi.new("int32_t[]", list(coarseness))
-        return self._shown("kapitza_chart", self._text(changed), len(coarseness), steps,
-                           *self._callbacks("kapitza_show_chart", shown, between))
+        arguments = [self._library.text(changed), len(coarseness), steps]
+        return self._shown("kapitza_chart", arguments, "kapitza_show_chart", shown, between)
 
     def catalogue(self, changed: str | None = None) -> dict[str, Any]:
         """The known attractors of a pendulum, with numbers that stay with them while it changes."""
-        for found in self._given("kapitza_catalogue", "kapitza_catalogue_of", self._text(changed)):
+        for found in self._given("kapitza_catalogue", "kapitza_catalogue_of", self._library.text(changed)):
             return self._catalogue(found)
         raise AssertionError
 
     def _catalogue(self, found: Any) -> dict[str, Any]:
+        if self._known.get("version") != found.version:
+            self._known = self._catalogue_of(found)
+        return self._known
+
+    def _catalogue_of(self, found: Any) -> dict[str, Any]:
         numbers = {"k": "k", "damping": "beta", "m": "m", "quality_factor": "quality_factor",
-                   "drive_frequency": "drive_frequency", "drive_amplitude": "drive_amplitude"}
+                   "drive_frequency": "drive_frequency",
+                   "drive_amplitude": "drive_amplitude"}
         return {"version": found.version, "pendulum": {name: finite(getattr(found.parameters, field)) for name,
                                                        field in numbers.items()},
                 "attractors": [self._attractor(index, found.track[index], found.attractors.cycle[index])
@@ -123,9 +156,10 @@ class Live:
 
     def _attractor(self, number: int, track: int, row: Any) -> dict[str, Any]:
         return {"id": number, "track": track, "name": self._word(row.name),
-                "kind": style.kind(row.period, row.winding, row.centre),
+                "kind": kind(row.period, row.winding, row.centre),
                 "period": row.period, "winding": row.winding, "centre": CENTRES[row.centre],
-                "symmetric": bool(row.symmetric), "mirror": row.mirror, "mean_velocity": finite(row.mean_velocity),
+                "symmetric": bool(row.symmetric),
+                "mirror": row.mirror, "mean_velocity": finite(row.mean_velocity),
                 "multiplier": finite(math.hypot(row.multiplier_re[0], row.multiplier_im[0])) if row.period else None,
                 "strobe": self._points(row.theta, row.velocity, row.period)}
 
@@ -138,11 +172,20 @@ class Live:
 
     def where(self, theta: Sequence[str], velocity: Sequence[str], changed: str | None = None) -> list[dict[str, Any]]:
         """Where starts end, whose numbers are texts of any digits: a row each, with the columns of `kapitza.where`."""
-        texts = [[self._text(str(text)) for text in numbers] for numbers in (theta, velocity)]
-        arrays = [self._library.ffi.new("char *[]", numbers) for numbers in texts]
-        for found in self._given("kapitza_endings", "kapitza_where", self._text(changed), len(theta), *arrays):
+        (angles, _), (speeds, _) = kept = [self._library.texts(numbers) for numbers in (theta, velocity)]
+        for found in self._given("kapitza_endings", "kapitza_where", self._library.text(changed), len(theta), angles,
+                                 speeds):
+            del kept
             return endings_of(self._library, found)
         raise AssertionError
+
+    def orbit(self, theta: float, velocity: float, periods: int, transient: int = 0,
+              samples_per_period: int = 64) -> np.ndarray:
+        """One motion in continuous time, behind `transient` periods: theta (not wrapped) and velocity."""
+        values = np.empty((2, periods * samples_per_period + 1))
+        self._library.call("kapitza_orbit", self._own, theta, velocity, transient, periods, samples_per_period,
+                           *map(self._library.view, values))
+        return values
 
     def pivot(self, samples: int) -> list[list[float]]:
         """Where the pivot is at the samples of a drive period: [aside, height]."""
@@ -152,24 +195,26 @@ class Live:
 
     def motions(self, atlas: str, x: float, y: float, states: bool = True) -> dict[str, Any]:
         """What attracts at a point of the atlas in a result file."""
-        for found in self._given("kapitza_motions", "kapitza_motions_at", self._text(atlas), x, y, int(states)):
+        for found in self._given("kapitza_motions", "kapitza_motions_at", self._library.text(atlas), x, y, int(states)):
             return {"x": found.x, "y": found.y, "k": found.k, "damping": found.beta, "m": found.m,
                     "motions": [self._motion(found.motion[index]) for index in range(found.count)]}
         raise AssertionError
 
     def _kind(self, row: Any) -> dict[str, Any]:
         return {"name": self._word(row.name), "period": row.period, "winding": row.winding,
-                "centre": CENTRES[row.centre], "symmetric": bool(row.symmetric), "images": row.images}
+                "centre": CENTRES[row.centre],
+                "symmetric": bool(row.symmetric), "images": row.images}
 
     def _motion(self, row: Any) -> dict[str, Any]:
         pairs = [[row.multiplier_re[place], row.multiplier_im[place]] for place in range(2)]
         return self._kind(row) | {"curve": row.curve if row.curve >= 0 else None, "multipliers": pairs if row.strobes
-                                  else [], "strobe": self._points(row.theta, row.velocity, row.strobes)}
+                                  else [],
+                                  "strobe": self._points(row.theta, row.velocity, row.strobes)}
 
     def line(self, atlas: str, x: float | None, y: float | None) -> tuple[list[dict[str, Any]], np.ndarray]:
         """The branches of cycles along a line through the atlas in a result file, and their points."""
         along = (0, x) if y is None else (1, y)
-        for found in self._given("kapitza_line", "kapitza_line_through", self._text(atlas), *along):
+        for found in self._given("kapitza_line", "kapitza_line_through", self._library.text(atlas), *along):
             rows = (found.branch[index] for index in range(found.count))
             return ([self._kind(row) | {"first": row.first, "points": row.points} for row in rows],
                     self._library.array(found.point, found.points * len(LINE), float).reshape(-1, len(LINE)))
@@ -204,10 +249,3 @@ def _ending(library: Library, row: Any, omega: float | None) -> dict[str, Any]:
                (("settling_seconds", ending["settling_time"]), ("near_seconds", near))}
     return ending | {"velocity_rad_per_s": row.velocity * omega} | seconds | {
         "strobe_velocity_rad_per_s": [value * omega for value in strobe[1]]}
-
-
-def axes(window: Mapping[str, Any] | None, rows: int, columns: int) -> dict[str, Any]:
-    """The mapping `basin` of a frame of so many cells; the window may lack an axis, which stays that of the scene."""
-    own = window or {}
-    keys = {"theta": columns, "velocity": rows}
-    return {f"{name}": {**own[name], "count": count} for name, count in keys.items() if name in own}

@@ -93,7 +93,7 @@ def _grown(cells: np.ndarray, wraps: bool) -> np.ndarray:
 def _of_fresh_starts(result: "Result", place: tuple[float, float], widths: tuple[float, float], kind: str, starts: int,
                      seed: int) -> list[Row]:
     """Random starts, each followed to its end, with the 95 % interval (Wilson) of each share."""
-    from kapitza.session import where
+    from kapitza.starts import where
     random = np.random.default_rng(seed)
 
     def draw() -> np.ndarray:

@@ -25,6 +25,7 @@ JOB_SETTINGS = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "ORTE_", "HYDI_", "HYDRA_", "
 IN_A_JOB = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_STEP_ID"}
 FEWEST_MOST_RANKS, RANKS_PER_CORE = 64, 8
 REFUSED, STOPPED = 2, 75  # exit statuses
+MOST_BYTES = 1_000_000  # largest scene
 ERROR = "kapitza: error: "  # begins every line of the program that is an error
 _PLACE = re.compile(r"(?P<place>(?:.+?:\d+:\d+|--set .+?|request)): (?P<key>[a-z_]\w*(?:\.\w+)*): ")
 
@@ -141,6 +142,30 @@ def check_end(status: int, errors: str, scene: Scene) -> None:
         raise scene_error(text.replace("use --force to overwrite it",
                                        "force=True overwrites it, resume=True goes on from it"), scene)
     raise RunError(text)
+
+
+def source(scene: Scene) -> tuple[str | bytes, str, list[str]]:
+    """Text, name in messages and changes of a scene, as the library takes them."""
+    return (scene_bytes(scene.path) if scene.is_file else scene.text), str(scene.path), scene.sets[1::2]
+
+
+def scene_bytes(path: Path) -> bytes:
+    """The text as it stands in a file, which must be one and as large as scenes are."""
+    try:
+        with open(path, "rb") as file:
+            text = file.read(MOST_BYTES + 1)
+    except OSError as error:
+        raise SceneError(f"{path}: cannot be opened: {error.strerror}") from None
+    return checked(text, str(path))
+
+
+def checked(text: bytes, name: str) -> bytes:
+    """The text, unless it is larger than a scene, or holds the character at which texts end."""
+    if len(text) > MOST_BYTES:
+        raise SceneError(f"{name}: has more than {MOST_BYTES} bytes; a scene has at most that many")
+    if b"\0" in text:
+        raise SceneError(f"{name}: holds the character NUL")
+    return text
 
 
 def scene_error(text: str, scene: Scene) -> SceneError:

@@ -10,14 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import pandas
-
 from kapitza import units
-from kapitza.program import STOPPED, SceneError, ask, check_end, command, environment
+from kapitza.program import STOPPED, ask, check_end, command, environment
 from kapitza.progress import Progress
 from kapitza.result import Result
-from kapitza.scene import Scene, SceneLike, new_path, texts
+from kapitza.scene import Scene, SceneLike, new_path
 
 
 def run(scene: SceneLike, output: str | os.PathLike[str] | None = None, ranks: int = 1, set: Mapping[str, Any] | None = None,
@@ -115,55 +112,6 @@ def check(scene: SceneLike, set: Mapping[str, Any] | None = None) -> Check:
     asked = Scene(scene, set)
     facts = json.loads(ask(["check", asked.path, *asked.sets, "--json"], asked))
     return Check(facts["scene"], facts["studies"], facts["cells"], facts["text"])
-
-
-def needs(length: Any, frequency: Any, quality_factor: float | None = None) -> dict[str, Any]:
-    """How large the amplitude of the pivot must be for a pendulum to stand upside down.
-
-    The answer has `stands` and `flutters`, the smallest and the largest amplitude (half of the stroke) in m, or None; `stands_g` and
-    `flutters_g`, the peak accelerations of the pivot there in units of gravity; and `length` (m), `frequency` (Hz), `quality_factor`.
-
-    :param length: of a point mass on a light rod: m, or a text such as "20 cm"
-    :param frequency: of the pivot: Hz, or a text such as "50 Hz" or "3000 rpm"
-    :param quality_factor: of small swings; None = 20
-    :raises SceneError: if the program refuses a value
-    """
-    words = ["needs", "--length", str(length), "--frequency", str(frequency), "--json"]
-    words += ["--quality-factor", str(quality_factor)] if quality_factor is not None else []
-    return dict(json.loads(ask(words, Scene({}))))
-
-
-def where(scene: SceneLike, theta: Any, velocity: Any, set: Mapping[str, Any] | None = None) -> pandas.DataFrame:
-    """Returns where starts end: a table with a row for each start.
-
-    The columns are theta, velocity, attractor (id; -1 = not settled), name, period (0 = it never closes), winding, settling_time (drive
-    periods after which the end is certain), decided, strobe_theta and strobe_velocity (lists), precision, error (rad), other_attractor,
-    other_name, near_time (drive periods after which the angle stays within 1 degree of the final motion), turns (net turns until an
-    oscillation; missing for other ends) and mean_velocity. A value that does not exist is missing. For a scene in SI units there are also
-    velocity_rad_per_s, settling_seconds, near_seconds and strobe_velocity_rad_per_s.
-
-    :param scene: path of a scene file, YAML text, or a mapping
-    :param theta: angles in rad from down, or texts such as "175 deg" and "pi/2"; a number or an array
-    :param velocity: velocities in rad per drive radian, or, for a scene in SI units, texts such as "3 rad/s". The arrays are broadcast;
-        at most 100,000 starts
-    :param set: keys to change
-    :raises SceneError: if the program refuses the scene or a start
-    """
-    asked = Scene(scene, set)
-    angles, velocities = (np.ravel(values) for values in np.broadcast_arrays(_starts(theta), _starts(velocity)))
-    units.note_bare(angles)
-    for text in (*angles, *velocities):
-        if any(letter in str(text) for letter in ",\r\n"):
-            raise SceneError(f"{str(text)!r} is not one number; give an array for several starts")
-    table = "".join(f"{angle},{speed}\n" for angle, speed in zip(angles, velocities, strict=True))
-    rows = [json.loads(line) for line in ask(["where", asked.path, "-", *asked.sets, "--json"], asked, table).splitlines()]
-    return pandas.DataFrame(rows).astype({name: "Int64" for name in ("period", "winding", "settling_time", "near_time", "turns")})
-
-
-def _starts(values: Any) -> np.ndarray:
-    """Numbers as texts that read back as the same numbers, and texts as they are; of any shape."""
-    given = np.asarray(values, dtype=object)
-    return np.vectorize(texts, otypes=[object])(given) if given.size else given
 
 
 def orbit(scene: SceneLike, theta: Any = None, velocity: Any = None, *, attractor: int | str | None = None, periods: int | None = None,

@@ -20,6 +20,8 @@ import xarray
 from matplotlib.colors import to_hex, to_rgb
 
 from kapitza import units
+from kapitza.motion_kinds import DOWN as DOWN
+from kapitza.motion_kinds import kind as kind
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -56,23 +58,6 @@ _OKLAB = (np.array([[0.4122214708, 0.5363325363, 0.0514459929], [0.2119034982, 0
 _OKLAB_INVERSE = tuple(np.linalg.inv(matrix) for matrix in _OKLAB)
 
 TORQUES = ("torque", "torque_amplitude")  # attributes of the group pendulum
-
-# Codes of the variable `centre`.
-DOWN, INVERTED, ROTATING = 0, 1, 2
-
-
-def kind(period: int, winding: int, centre: int) -> str:
-    """The kind of motion of an attractor: a key of KINDS."""
-    if period == 0 and winding == 0:
-        return "chaotic"
-    if centre == ROTATING:
-        return f"{'rotation' if period > 0 else 'running'} {'+' if winding > 0 else '-'}"
-    if centre == INVERTED:
-        return {1: "inverted", 2: "flutter"}.get(period, "inverted nodding")
-    if centre == DOWN:
-        return "down" if period == 1 else "down nodding"
-    return "other"
-
 
 def colours(attractors: xarray.Dataset, apart: Iterable[int] | None = None) -> list[str]:
     """One colour (hex) per attractor of the dataset `attractors`: that of its motion, moved in hue where another one is

@@ -28,13 +28,6 @@ kz_json *kz_json_text(const char *text) {
   return json_object_new_string(clean);
 }
 
-kz_json *kz_json_pair(double first, double second) {
-  kz_json *pair = json_object_new_array();
-  json_object_array_add(pair, kz_json_real(first));
-  json_object_array_add(pair, kz_json_real(second));
-  return pair;
-}
-
 kz_json *kz_json_texts(const char *const *texts) {
   kz_json *list = json_object_new_array();
   for (; *texts; texts++) json_object_array_add(list, kz_json_text(*texts));

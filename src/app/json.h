@@ -1,5 +1,4 @@
-/* JSON by json-c: requests of other programs, and what other programs read. The only file of the app that knows json-c
- * besides those that build objects by it. */
+/* JSON by json-c, for other programs to read. */
 #pragma once
 
 #include <json-c/json.h>
@@ -9,10 +8,9 @@
 typedef struct json_object kz_json;
 
 /* Values. real: with the fewest digits that read back as the same number; null if it is not finite. text: bytes that
- * are not UTF-8, as where a message was cut, become '?'. pair: a list of two numbers. */
+ * are not UTF-8, as where a message was cut, become '?'. */
 kz_json *kz_json_real(double value);
 kz_json *kz_json_text(const char *text);
-kz_json *kz_json_pair(double first, double second);
 /* The names of a list that NULL ends. */
 kz_json *kz_json_texts(const char *const *texts);
 

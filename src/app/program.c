@@ -78,6 +78,9 @@ static kz_status find_command(int argc, char **argv, kz_options *options, const 
 #define MISSING(name, power) \
   if (strcmp(argv[1], #name) == 0) return kz_fail(KZ_REFUSED, "%s: " KZ_MISSING_POWER, #name, #power);
   KZ_MISSING_COMMANDS(MISSING)
+  if (strcmp(argv[1], "serve") == 0)
+    return kz_fail(KZ_REFUSED,
+                   "serve: is gone; libkapitza.so answers in the process of who asks (docs/howto/other-languages.md)");
   if (kz_key_suggest(argv[1], names, nearest, sizeof nearest))
     return kz_fail(KZ_REFUSED, "%.80s: unknown command; did you mean %s?", argv[1], nearest);
   return kz_fail(KZ_REFUSED, "%.80s: unknown command; kapitza --help lists the commands", argv[1]);

@@ -26,12 +26,15 @@ struct kapitza_pendulum {
   kz_engine *engine;
   kz_library_atlas *atlas; /* atlas of the file that was asked about last; NULL = none */
   kz_flow *flow[2];        /* forwards, backwards; NULL = not made yet */
-  char text[];             /* text of the scene */
+  kz_scene_source text;    /* text of the scene, which stands behind the pendulum */
 };
 
 /* Runs `work` for a pendulum, opened, within its border, alone; its status as the caller gets it. */
 typedef kz_status (*kz_work_fn)(kapitza_pendulum *pendulum, void *context);
 kapitza_status kz_library_call(kapitza_pendulum *pendulum, kz_work_fn work, void *context);
+
+/* A scene as the layers below have it; its text is the caller's. */
+kz_scene_source kz_library_text(const kapitza_scene *scene);
 
 /* The status of the last call within the border, as the caller gets it. */
 kapitza_status kz_library_status(kz_status status, const kz_border *border);
@@ -66,6 +69,13 @@ void kz_library_cycles_put(const kz_catalogue *catalogue, bool attract, void *pl
 kapitza_endings *kz_library_endings(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2],
                                     const kz_ending *own);
 
-/* kapitza_pendulum_create and kapitza_run, behind the check of the CPU (entry.c). */
-kapitza_status kz_library_create(const char *scene, kapitza_pendulum **pendulum);
+/* Runs `work` within a border of its own, which ends with it. */
+kapitza_status kz_library_alone(kz_status (*work)(void *context), void *context);
+
+/* Functions of kapitza.h, behind the check of the CPU (entry.c). */
+kapitza_status kz_library_create(const kapitza_scene *scene, kapitza_pendulum **pendulum);
+kapitza_status kz_library_where(const kapitza_scene *scene, int64_t n, const char *const *theta,
+                                const char *const *velocity, kapitza_endings **endings);
+kapitza_status kz_library_boundary(const kapitza_scene *scene, const char *const *theta, const char *const *velocity,
+                                   int64_t digits, kapitza_boundary *boundary);
 kapitza_status kz_library_run(const char *scene, const char *output, int32_t overwrite, char **summary);

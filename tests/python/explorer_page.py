@@ -1,6 +1,7 @@
 """The explorer as its tests reach it: the server's process, its requests, a real browser."""
 
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -12,15 +13,18 @@ from pathlib import Path
 import pytest
 from conftest import PROGRAM, ROOT, wait_for
 
-FAKE = ROOT / "tests" / "tools" / "fake_serve.py"
+STRIPED = ROOT / "tests" / "tools"
 
 
 class Server:
-    """`kapitza view` at work; with the double of the program where `fake`. Its page's token is traded at once."""
+    """`kapitza view` at work; with the double of its engine where `striped`, and no program for maps. Its page's token
+    is traded at once."""
 
-    def __init__(self, source, *options, fake=False, environment=None):
-        own = [sys.executable, "-m", "kapitza.explorer", "--program", FAKE]
-        command = [*(own if fake else [PROGRAM, "view"]), source, "--no-browser", *options]
+    def __init__(self, source, *options, striped=False, environment=None):
+        command = [PROGRAM, "view", source, "--no-browser", *options]
+        if striped:
+            command = [sys.executable, STRIPED / "striped_view.py", *options, "--", STRIPED / "stripes.yaml"]
+            environment = (environment or os.environ) | {"KAPITZA": shutil.which("false")}
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                         env=environment)
         self.title, self.url, self.hint, self.forward = (self.process.stdout.readline().strip() for _ in range(4))
@@ -53,7 +57,7 @@ class Server:
             return error.code, json.loads(error.read())
 
     def answers(self, request, view="a"):
-        """Header and payload of each of the program's answers, as they come."""
+        """Header and payload of each of the engine's answers, as they come."""
         with self.post(f"ask?view={view}", request) as stream:
             header = {"final": False}
             while not header["final"]:
@@ -64,8 +68,8 @@ class Server:
         return list(self.answers(request, view))
 
     def children(self):
-        """Processes that compute for it."""
-        return children_of(self.process.pid)
+        """Processes that compute for it, which are not that of multiprocessing itself."""
+        return [child for child in children_of(self.process.pid) if b"resource_tracker" not in words_of(child)]
 
     def end(self):
         """Its exit status and what it said, after SIGTERM."""
@@ -73,6 +77,14 @@ class Server:
         output, errors = self.process.communicate()
         return self.process.returncode, errors + "".join(line for line in output.splitlines()
                                                          if "for another browser" not in line)
+
+
+def words_of(process):
+    """The command line of a process."""
+    try:
+        return Path(f"/proc/{process}/cmdline").read_bytes()
+    except OSError:
+        return b""
 
 
 def children_of(process):
@@ -259,7 +271,7 @@ def driver(folder):
 
 @pytest.fixture(scope="module")
 def striped():
-    running = Server(ROOT / "scenes" / "small.yaml", fake=True)
+    running = Server(None, striped=True)
     yield running
     assert running.end() == (0, "")
 

@@ -1,10 +1,11 @@
-"""A client of `kapitza serve` for the tests: requests out, answers in."""
+"""An engine of the explorer for the tests: requests as a page sends them, and their answers."""
 
-import json
-import subprocess
+from pathlib import Path
 
 import numpy as np
-from conftest import PROGRAM
+from kapitza.explorer.requests import Engine, packed
+from kapitza.explorer.scene import Start
+from kapitza.explorer.worker import plain_error
 
 OFFSET = {1: 0, 2: 1, 4: 1, 8: 5}
 TYPES = {"labels": np.uint8, "settling_time": np.dtype("<f4"), "smooth_time": np.dtype("<f4"), "doubt": np.uint8,
@@ -12,47 +13,35 @@ TYPES = {"labels": np.uint8, "settling_time": np.dtype("<f4"), "smooth_time": np
 
 
 class Server:
-    """A running program; `with` ends it."""
+    """An engine in this process."""
 
-    def __init__(self, scene, *arguments, folder=None, memory=None):
-        """memory: bytes of address space that the program may use."""
-        command = [PROGRAM, "serve", scene, *arguments]
-        limited = ["prlimit", f"--as={memory}"] if memory else []
-        self.process = subprocess.Popen([*limited, *command], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=folder)
-        self.ready, _ = self.receive()
-        self.sequence = 0
+    def __init__(self, scene, *options):
+        """options: --set KEY=VALUE ..."""
+        start = Start(Path(scene), sets=options[1::2])
+        self.engine, self.pendulum = Engine(*start.engine()), start.pendulum()
         self.catalogues = {}  # attractors by version
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
-        self.process.stdin.close()
-        self.process.stdout.close()
-        assert self.process.wait() == 0
+        pass
 
-    def send(self, text):
-        self.process.stdin.write(text.encode() + b"\n")
-        self.process.stdin.flush()
+    def ask(self, request, between=lambda: True, **keys):
+        """All answers to one request: header and payload."""
+        answers = []
 
-    def receive(self):
-        """The next answer: header and payload."""
-        header = json.loads(self.process.stdout.readline())
-        if header["answer"] == "catalogue":
-            self.catalogues[header["version"]] = header["attractors"]
-        return header, self.process.stdout.read(header["bytes"])
+        def show(header, planes):
+            if header["answer"] == "catalogue":
+                self.catalogues[header["version"]] = header["attractors"]
+            payload = b"".join(packed(planes))
+            answers.append((header | {"bytes": len(payload)}, payload))
 
-    def post(self, request, **keys):
-        self.sequence += 1
-        self.send(json.dumps({"request": request, "sequence": self.sequence, **keys}))
-        return self.sequence
-
-    def ask(self, request, **keys):
-        """All answers to one request."""
-        sequence, answers = self.post(request, **keys), []
-        while not answers or not answers[-1][0]["final"]:
-            answers.append(self.receive())
-            assert answers[-1][0]["sequence"] == sequence
+        try:
+            if not self.engine.answers({"request": request, **keys}, show, between):
+                show({"answer": "ended", "final": True}, ())
+        except Exception as error:
+            show(plain_error(error), ())
         return answers
 
     def frame(self, rows, columns, planes=("labels",), **keys):

@@ -101,6 +101,8 @@ export class Engine {
   constructor(view) {
     this.view = `${pageName()}-${view}`;
     this.catalogue = null;
+    /** @type {(words: string) => void} */
+    this.told = () => {}; // hears what happened to the view's program
   }
 
   /** Each answer to `request` in turn; throws the program's own words where it refuses. Catalogues are kept, not handed
@@ -108,6 +110,7 @@ export class Engine {
   async *answers(request, signal) {
     for await (const [header, bytes] of stream(`ask?view=${this.view}`, request, signal)) {
       if (header.answer === "error") throw new Error(header.message);
+      if (header.restarted) this.told(`${header.restarted}; it was started again`);
       if (header.answer === "catalogue") this.catalogue = header;
       if (header.answer === "catalogue" && request.request !== "catalogue") continue;
       yield [header, bytes];

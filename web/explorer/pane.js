@@ -42,6 +42,7 @@ export class Pane {
     /** @type {any} */ this.basins = root.querySelector(".basins");
     /** @type {any} */ this.over = root.querySelector(".over");
     this.engine = new Engine(name);
+    this.engine.told = (words) => this.say(this, null, words);
     this.painter = painterOn(this.basins, state.painter === "2d");
     this.inset = new Inset(root.querySelector(".inset"), state);
     /** @type {any} */ this.offer = root.querySelector(".offer");

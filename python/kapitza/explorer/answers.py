@@ -18,8 +18,8 @@ def page_folder():
 
 def state(explorer, request):
     """What the page needs before its first frame."""
-    pendulum = explorer.ready["pendulum"] | explorer.start.with_units()
-    return {"title": explorer.title, "pendulum": pendulum, "window": explorer.start.window(explorer.ready), "kinds": style.KINDS,
+    pendulum = explorer.start.pendulum()
+    return {"title": explorer.title, "pendulum": pendulum, "window": explorer.start.window(), "kinds": style.KINDS,
             "pivot_frequency": written_frequency(pendulum), "overlays": overlays(explorer.start.result)}
 
 

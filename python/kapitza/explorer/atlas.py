@@ -6,8 +6,8 @@ from kapitza import style
 from kapitza.plots.atlas_classes import centre_of, lacking_text
 from kapitza.reading import arrays_of
 
+from .requests import BadRequest
 from .run_cache import CALM
-from .scene import BadRequest
 
 # A map comes soon, as its first stage is computed beside the page's pictures, and then with more periods. Where they are asked for, those
 # of four come too, with gaps between the curves looked for, and finer cells.

@@ -1,14 +1,20 @@
 """The command `kapitza view SCENE|FILE`. The program's own command line calls it and has its help."""
 
 import argparse
+import os
 import signal
 import socket
+import sys
 import threading
 import webbrowser
-from pathlib import Path
+
+from kapitza.exit_status import words_of
+from kapitza.program import program
+from kapitza.result import BadFile
 
 from .access import WrongArgument, origin
-from .program import Refused
+from .process import Refused
+from .requests import Engine
 from .scene import Start
 from .server import Explorer
 
@@ -16,12 +22,11 @@ from .server import Explorer
 def _arguments():
     parser = argparse.ArgumentParser(prog="kapitza view", description=__doc__)
     parser.add_argument("file", metavar="SCENE|FILE")
-    parser.add_argument("--program", type=Path, required=True, help="the executable that computes")
     parser.add_argument("--port", default="0", help="of the local server; 0 = any that is free")
     parser.add_argument("--origin", action="append", default=[], help="of other pages' servers (https://hub.example.org)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override or create a key of the scene")
-    parser.add_argument("--browser", action=argparse.BooleanOptionalAction, default=True, help="open the address in the browser")
-    return parser.parse_args()
+    parser.add_argument("--no-browser", action="store_true", help="print the address, and do not open a browser")
+    return parser.parse_args(words_of(["--no-browser"]))
 
 
 def _port(text):
@@ -31,16 +36,28 @@ def _port(text):
     return int(text)
 
 
-def main():
-    given = _arguments()
+def main(engine=Engine):
+    """Errors are one line, as the program's own are. `engine`: what makes the engine of a view."""
+    try:
+        _main(_arguments(), engine)
+    except (BadFile, WrongArgument) as error:
+        print(f"kapitza: error: {error}", file=sys.stderr)
+        sys.exit(2)
+    except OSError as error:  # the address could not be printed: a full disk, a closed pipe
+        print(f"kapitza: error: view: {error.strerror or error}", file=sys.stderr)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left would fail again at the end
+        sys.exit(1)
+
+
+def _main(given, engine):
     port, origins = _port(given.port), [origin(text) for text in given.origin]
     try:
-        explorer = Explorer(Start(given.file, sets=given.set), given.program, port, origins)
+        explorer = Explorer(Start(given.file, sets=given.set), program(), port, origins, engine=engine)
     except Refused as error:
         raise WrongArgument(str(error)) from error
     except OSError as error:
         raise WrongArgument(f"--port: {port} cannot be used: {error.strerror}; choose another, or leave it out") from error
-    _serve(explorer, given.browser)
+    _serve(explorer, not given.no_browser)
 
 
 def _serve(explorer, opens):

@@ -34,7 +34,7 @@ class Shown:
                'allow="clipboard-write"></iframe>'
 
     def close(self):
-        """Ends the server and its programs."""
+        """Ends the server and its engines."""
         self._explorer.close()
 
 

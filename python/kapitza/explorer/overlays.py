@@ -5,7 +5,7 @@ import numpy as np
 from kapitza.boundaries.manifolds import manifolds
 from kapitza.pendulum import Pendulum
 
-from .scene import BadRequest
+from .requests import BadRequest
 
 OVERLAYS = ("saddles", "manifolds")
 LENGTH = 14  # length of each branch: rad and rad per drive radian together

@@ -12,10 +12,10 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
-from kapitza.program import environment
+from kapitza.program import ERROR, environment
 from kapitza.result import BadFile, Result
 
-from .program import Refused, plain
+from .process import Refused
 
 PATIENCE = 0.2   # seconds between two words on the progress; a page that has gone is noticed by them
 MOST_KEPT = 100  # results; the oldest go first
@@ -29,6 +29,9 @@ ctypes.CDLL(None).prctl(1, 9)
 if os.getppid() == int(sys.argv[1]):
     os.execv(sys.argv[2], sys.argv[2:])
 """
+
+
+_PLACE = re.compile(r"^-:\d+:\d+: ")  # in a text that nobody wrote
 
 
 class RunCache:
@@ -118,7 +121,8 @@ class RunCache:
                 process.wait()
                 self._running.discard(process)
             if process.returncode != 0:
-                raise Refused(plain((errors.read_text().strip().splitlines() or ["it could not be computed"])[-1]))
+                said = (errors.read_text().strip().splitlines() or ["it could not be computed"])[-1]
+                raise Refused(_PLACE.sub("", said.removeprefix(ERROR)))
             os.replace(made, path)
 
 

@@ -2,27 +2,25 @@
 
 import copy
 import math
-import os
 from pathlib import Path
 
 import yaml
 
+from kapitza import units
 from kapitza.bounded_reading import read_text
 from kapitza.result import BadFile, Result
 from kapitza.scene import flow, put, read_yaml, texts, tree_of
-from kapitza.units import parts_of
+from kapitza.units import written_frequency
 
 from . import picture
+from .requests import BadRequest
 
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 # The window of a scene that has none: the whole circle, and velocities of two turns a shake.
 WINDOW = {"theta": {"min": str(-math.pi), "max": str(math.pi)}, "velocity": {"min": "-2", "max": "2"}}
+GRAVITY = 9.80665  # m/s^2, where a scene gives none
 EDGES = ("min", "max", "centre", "width")
 LEFT_OUT = ("accuracy", "proof", "theta", "velocity", "method")  # keys of a basin that a view has of its own, or does not need
-
-
-class BadRequest(Exception):
-    """A request of the page that cannot be meant; the text says why."""
 
 
 class Start:
@@ -43,36 +41,24 @@ class Start:
             self.text = _text_of(self.path)
         self.sets = list(sets)
         self.tree = _changed(tree_of(self.text), self.sets)
-        self._file = None
 
-    def words(self):
-        """The scene as an argument of `kapitza serve`, and the descriptors that it must inherit: a text stands in no folder."""
-        default = [] if "basin" in self.tree else [f"basin={flow({'velocity': WINDOW['velocity']})}"]
-        changes = [word for value in [*default, *self.sets] for word in ("--set", value)]
-        if self.path is not None:
-            return [f"./{self.path}" if str(self.path).startswith("-") else str(self.path), *changes], ()
-        if self._file is None:
-            self._file = os.memfd_create("scene")
-            os.write(self._file, self.text.encode())
-        return [f"/proc/self/fd/{self._file}", *changes], (self._file,)
+    def engine(self):
+        """The arguments of an engine of the scene: text, name, changes, starts of charts. A text that nobody wrote has no name."""
+        sweep = self.tree.get("sweep")
+        return self.text, "scene" if self.path is None else str(self.path), self.sets, sweep.get("ends") if isinstance(sweep, dict) else None
 
-    def close(self):
-        if self._file is not None:
-            os.close(self._file)
-            self._file = None
-
-    def with_units(self):
-        """The values of the pendulum behind which the scene writes a unit: {"length": "20 cm"}."""
+    def pendulum(self):
+        """The mapping pendulum: numbers, and texts where the scene writes a unit or a word."""
         written = self.tree.get("pendulum")
-        written = written if isinstance(written, dict) else {}
-        return {name: value for name, value in written.items() if isinstance(value, str) and (parts_of(value) or ("", ""))[1]}
+        values = {name: _value(value) for name, value in written.items()} if isinstance(written, dict) else {}
+        return {"gravity": GRAVITY} | values if values.keys() & {"length", "radius"} else values
 
-    def window(self, ready):
-        """The window of the scene's basin, with the digits that the scene gives; else as the program says, or the whole circle."""
-        basin = self.tree.get("basin")
-        known = ready.get("window") or WINDOW
-        return {axis: _edges(basin.get(axis) if isinstance(basin, dict) else None) or {end: known[axis][end] for end in ("min", "max")}
-                for axis in ("theta", "velocity")}
+    def window(self):
+        """The window of the scene's basin, with the digits that it gives; in rad and rad per drive radian where it has units."""
+        basin, omega = self.tree.get("basin"), written_frequency(self.pendulum())
+        axes = basin if isinstance(basin, dict) else WINDOW
+        return {"theta": _edges(axes.get("theta"), units.angle) or WINDOW["theta"],
+                "velocity": _edges(axes.get("velocity"), lambda text: units.velocity(text, omega)) or WINDOW["velocity"]}
 
     def view(self, request):
         """The scene of a view as people write it. What the scene leaves out stays left out."""
@@ -113,16 +99,30 @@ def _changed(tree, sets):
     return tree
 
 
-def _edges(axis):
-    """Edges or middle of an axis, as written; None where a unit or the program's default is in them."""
-    if not isinstance(axis, dict):
-        return None
-    found = {name: axis[name] for name in EDGES if name in axis}
+def _edges(axis, read):
+    """Edges or middle of an axis, as written, or as `read` reads their units; None where they are not given."""
+    found = {name: axis[name] for name in EDGES if name in axis} if isinstance(axis, dict) else {}
     try:
-        [float(value) for value in found.values()]
+        return {name: value if _is_number(value) else read(value) for name, value in found.items()} \
+            if found.keys() in ({"min", "max"}, {"centre", "width"}) else None
     except (TypeError, ValueError):
         return None
-    return found if found.keys() in ({"min", "max"}, {"centre", "width"}) else None
+
+
+def _is_number(value):
+    try:
+        return math.isfinite(float(value))
+    except (TypeError, ValueError):
+        return False
+
+
+def _value(value):
+    """A number where the text is one."""
+    if isinstance(value, dict):
+        return {name: _value(item) for name, item in value.items()}
+    if isinstance(value, list):
+        return [_value(item) for item in value]
+    return float(value) if _is_number(value) else value
 
 
 def _first_bytes(path):

@@ -11,10 +11,12 @@ from kapitza.result import BadFile
 
 from .access import Access
 from .answers import ANSWERS, RUNS, page_folder
+from .colours import Colours
 from .connections import Door, Gate
-from .program import Refused, Views
+from .process import Refused, Views
+from .requests import BadRequest, Engine
 from .run_cache import RunCache
-from .scene import BadRequest, Start
+from .scene import Start
 
 MOST_BYTES = 65_536  # longest request
 MOST_NAME = 64       # characters of a view's name
@@ -23,21 +25,20 @@ FIRST = "first"      # the view that is begun before a page comes
 
 
 class Explorer:
-    """The server with its views. `origins`: of pages that may ask beside its own; `frames`: that may show it in a frame."""
+    """The server with its views. `program`: the executable of maps and saddles; `origins`: of pages that may ask beside its own; `frames`:
+    that may show it in a frame; `engine`: what makes the engine of a view."""
 
-    def __init__(self, start: Start, program, port=0, origins=(), frames=()):
-        words, descriptors = start.words()
-        self.start, self.views = start, Views([str(program), "serve", *words], descriptors)
+    def __init__(self, start: Start, program, port=0, origins=(), frames=(), engine=Engine):
+        self.start, self.views = start, Views(start.engine(), _coloured, engine)
         self.kept = RunCache(program, start.tree.get("numerics"))
         self.files = {path.name: path.read_bytes() for path in page_folder().iterdir() if path.suffix in KINDS}
         self.access, self.frames = Access(origins), tuple(frames)
         try:
-            self.ready = self.views.view(FIRST).ready
+            self.views.view(FIRST)
             self.gate = Gate()
             self._doors = _doors(port, self.gate, type("Connected", (Handler,), {"explorer": self}))
         except BaseException:
             self.views.close()
-            self.start.close()
             raise
         self.on_trade = lambda: None  # called when a page has come
         self._threads = [threading.Thread(target=door.serve_forever, daemon=True) for door in self._doors]
@@ -48,7 +49,7 @@ class Explorer:
 
     @property
     def title(self):
-        return self.ready.get("title") or self.start.name
+        return self.start.tree.get("title") or self.start.name
 
     def new_address(self, base=None):
         """An address that is good for one browser."""
@@ -59,14 +60,22 @@ class Explorer:
             thread.start()
 
     def close(self):
-        """Ends every program and every connection."""
+        """Ends every engine, run and connection."""
         self.kept.close()
         self.views.close()
         for door in self._doors:
             door.shutdown()
             door.server_close()
         self.gate.close()
-        self.start.close()
+
+
+def _coloured():
+    """What adds colours to the catalogues of a view."""
+    colours = Colours()
+
+    def add(catalogue):
+        catalogue["attractors"] = colours.added(catalogue["attractors"])
+    return add
 
 
 def _doors(port, gate, handler):

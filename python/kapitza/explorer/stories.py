@@ -9,7 +9,7 @@ from kapitza.bounded_reading import read_text
 from kapitza.scene import read_yaml, texts
 from kapitza.units import written_frequency
 
-from .scene import BadRequest
+from .requests import BadRequest
 
 WHOLE = {"title": str, "pendulum": dict, "window": dict, "steps": list}  # keys of a story
 STEP = {"say": str, "pendulum": dict, "window": dict, "boundary": (int, float), "start": dict, "view": str, "fill": str, "map": str,

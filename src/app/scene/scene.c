@@ -206,17 +206,31 @@ static kz_status set_flow(kz_node *root, const char *path, const char *text, con
   return kz_tree_set(root, path, node);
 }
 
+/* Whether an axis of the change has a number of cells alone. */
+static bool is_count(const kz_node *axis) {
+  return axis->kind == KZ_MAPPING && axis->first && !axis->first->next && strcmp(axis->first->name, "count") == 0;
+}
+
 /* Puts the children of a mapping of the change into that of the scene. */
 static kz_status put_children(kz_node *root, kz_node *mapping) {
   while (mapping->first) {
     char path[256];
-    snprintf(path, sizeof path, "%.120s.%.120s", mapping->name, mapping->first->name);
-    KZ_TRY(kz_tree_set(root, path, kz_tree_take(mapping, mapping->first->name)));
+    kz_node *child = kz_tree_take(mapping, mapping->first->name);
+    const bool count = is_count(child);
+    snprintf(path, sizeof path, "%.120s.%.120s%s", mapping->name, child->name, count ? ".count" : "");
+    if (!count) {
+      KZ_TRY(kz_tree_set(root, path, child));
+      continue;
+    }
+    const kz_status status = kz_tree_set(root, path, kz_tree_take(child, "count"));
+    kz_tree_free(child);
+    KZ_TRY(status);
   }
   return KZ_OK;
 }
 
-/* Keys of a mapping `basin` replace those of the scene one by one, other mappings as a whole. */
+/* Keys of a mapping `basin` replace those of the scene one by one, and counts of cells alone; other mappings as a
+ * whole. */
 static kz_status put_change(kz_node *root, kz_node *change) {
   if (change->kind != KZ_MAPPING) return kz_fail(KZ_REFUSED, "change: is not a list of mappings of a scene");
   for (kz_node *node; (node = change->first);) {
@@ -250,10 +264,11 @@ static kz_status complete_basin(kz_node *root, const char *change) {
   return set_flow(root, "basin.method", "exact", "basin");
 }
 
-kz_status kz_scene_open(const char *text, const char *change, kz_scene *scene) {
+kz_status kz_scene_open(const kz_scene_source *given, const char *change, kz_scene *scene) {
   kz_scene_tree tree;
   memset(scene, 0, sizeof *scene);
-  kz_status status = kz_scene_tree_read(text, strlen(text), "scene", 0, NULL, &tree);
+  kz_status status =
+      kz_scene_tree_read(given->text, strlen(given->text), given->name, given->n_sets, given->sets, &tree);
   if (status == KZ_OK && tree.root->kind == KZ_MAPPING) {
     drop_others(tree.root);
     status = complete_basin(tree.root, change);
@@ -263,9 +278,16 @@ kz_status kz_scene_open(const char *text, const char *change, kz_scene *scene) {
   return status;
 }
 
-const char *kz_decimal_read(const char *text, bool is_angle, kz_decimal *number) {
-  const kz_node node = {.kind = KZ_SCALAR, .text = (char *)text, .plain = true};
-  return kz_scalar_decimal(&node, is_angle, number);
+kz_status kz_scene_ask(const kz_scene_source *given, kz_status (*answer)(const kz_scene *scene, void *context),
+                       void *context) {
+  const size_t length = strlen(given->text);
+  kz_scene scene;
+  KZ_TRY(kz_scene_read(given->text, length, given->name, given->n_sets, given->sets, &scene));
+  kz_status status = kz_studies_check(&scene);
+  if (status == KZ_OK) status = answer(&scene, context);
+  status = kz_scene_locate(status, given->text, length, given->name, given->n_sets, given->sets);
+  kz_scene_free(&scene);
+  return status;
 }
 
 kz_status kz_tables_make(void) {

@@ -74,8 +74,6 @@ kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value);
 void kz_tree_name_symbols(const kz_key *keys, kz_node *root);
 /* Removes the node at `path` from the tree and returns it, or NULL; the caller frees it. */
 kz_node *kz_tree_take(kz_node *root, const char *path);
-/* A copy of a tree, without the siblings of its root. */
-kz_node *kz_tree_copy(const kz_node *root);
 /* Copies a text for a node; a NUL becomes the control character 1, which no text may hold. The caller frees it. */
 char *kz_node_text(const char *text, size_t length);
 

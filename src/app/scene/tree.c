@@ -133,14 +133,3 @@ char *kz_node_text(const char *text, size_t length) {
   copy[length] = '\0';
   return copy;
 }
-
-kz_node *kz_tree_copy(const kz_node *root) {
-  kz_node *copy = kz_calloc(1, sizeof *copy);
-  *copy = *root;
-  copy->next = copy->first = NULL;
-  copy->name = kz_strdup(root->name ? root->name : "");
-  copy->text = root->text ? kz_strdup(root->text) : NULL;
-  kz_node **end = &copy->first;
-  for (const kz_node *child = root->first; child; child = child->next, end = &(*end)->next) *end = kz_tree_copy(child);
-  return copy;
-}

@@ -1,8 +1,17 @@
 /* Commands that are Python. */
 #pragma once
 
-/* This process becomes `module` of the Python package, whose file in the package is `entry`, with words [n] behind it.
- * Returns only after a failure. kz_program_path: the path of this executable, which the caller frees; NULL after a
- * failure. */
-kz_status kz_package_become(const char *entry, const char *module, int n, const char *const *words);
-char *kz_program_path(void);
+#include "../app.h"
+
+/* Words of a command line. */
+enum { KZ_PACKAGE_WORDS = 512 };
+typedef struct {
+  int n;
+  const char *word[KZ_PACKAGE_WORDS]; /* [n] */
+} kz_package_words;
+/* Appends an option and its argument; NULL: it has none. */
+void kz_package_word(kz_package_words *words, const char *option, const char *argument);
+
+/* This process becomes the command `name` of the Python package, with these words, and behind them the sets, --json and
+ * operands of its options. Returns only after a failure, and on ranks that print nothing. */
+kz_status kz_package_call(const kz_options *options, const char *name, kz_package_words *words);

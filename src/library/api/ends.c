@@ -8,19 +8,15 @@ typedef struct {
   int64_t n;
   const char *const *theta, *const *velocity;
   kapitza_endings *endings;
+  const kapitza_scene *scene;
+  int64_t digits;
+  kapitza_boundary *boundary;
 } where_job;
 
-/* One number of a start; its digits stay the caller's. */
-static kz_status read_number(const char *text, bool is_angle, int64_t i, kz_coordinate *coordinate) {
-  static const double most[] = {KZ_MOST_SPEED, 1e6};
-  kz_decimal number;
-  const char *wrong = kz_decimal_read(text, is_angle, &number);
-  if (!wrong && !(fabs(number.high) <= most[is_angle])) wrong = "is out of range";
-  *coordinate = (kz_coordinate){.high = number.high, .low = number.low, .centre = text};
-  if (!wrong) return KZ_OK;
-  return kz_fail(KZ_REFUSED, "start %lld: %s: \"%.60s\" %s; it must be a number from %g to %g in %s", (long long)i + 1,
-                 is_angle ? "theta" : "velocity", text, wrong, -most[is_angle], most[is_angle],
-                 is_angle ? "rad" : "rad per drive radian, without a unit behind it");
+static kz_status starts_read(const where_job *j, double pivot_frequency, bool all, kz_coordinate (*start)[2]) {
+  for (int64_t i = 0; i < j->n; i++)
+    KZ_TRY(kz_start_read(j->theta[i], j->velocity[i], i, pivot_frequency, all, start[i]));
+  return KZ_OK;
 }
 
 static size_t endings_bytes(int64_t n, const kz_ending *own) {
@@ -78,11 +74,8 @@ static kz_status work_where(kapitza_pendulum *p, void *context) {
   KZ_AUTOFREE_BY(kz_scene_free) kz_scene scene = {0};
   KZ_TRY(kz_memory_ask("n", (size_t)j->n * (sizeof(kz_ending) + sizeof(kapitza_ending) + 2 * sizeof(kz_coordinate))));
   KZ_AUTOFREE kz_coordinate(*start)[2] = kz_calloc((size_t)j->n + 1, sizeof *start);
-  for (int64_t i = 0; i < j->n; i++) {
-    KZ_TRY(read_number(j->theta[i], true, i, &start[i][0]));
-    KZ_TRY(read_number(j->velocity[i], false, i, &start[i][1]));
-  }
-  KZ_TRY(kz_scene_open(p->text, j->change, &scene));
+  KZ_TRY(kz_scene_open(&p->text, j->change, &scene));
+  KZ_TRY(starts_read(j, scene.parameters.pivot_frequency, true, start));
   return where_tell(p, j, &scene, (const kz_coordinate(*)[2])start);
 }
 
@@ -92,6 +85,64 @@ kapitza_status kapitza_where(kapitza_pendulum *pendulum, const char *change, int
   const kapitza_status status = kz_library_call(pendulum, work_where, &job);
   *endings = status == KAPITZA_OK ? job.endings : NULL;
   return status;
+}
+
+/* ---- starts of a scene ---- */
+
+static kz_status ends_answer(const kz_scene *scene, void *context) {
+  where_job *j = context;
+  KZ_TRY(kz_memory_ask("n", (size_t)j->n * (sizeof(kz_ending) + sizeof(kapitza_ending) + 2 * sizeof(kz_coordinate))));
+  KZ_AUTOFREE kz_coordinate(*start)[2] = kz_calloc((size_t)j->n + 1, sizeof *start);
+  KZ_AUTOFREE kz_ending *own = kz_calloc((size_t)j->n + 1, sizeof *own);
+  KZ_TRY(starts_read(j, scene->parameters.pivot_frequency, false, start));
+  const kz_status status = kz_where(scene, j->n, (const kz_coordinate(*)[2])start, own);
+  if (status == KZ_OK) j->endings = kz_library_endings(scene, j->n, (const kz_coordinate(*)[2])start, own);
+  kz_where_free(j->n, own);
+  return status;
+}
+
+static kz_status ends_work(void *context) {
+  const kz_scene_source text = kz_library_text(((where_job *)context)->scene);
+  return kz_scene_ask(&text, ends_answer, context);
+}
+
+kapitza_status kz_library_where(const kapitza_scene *scene, int64_t n, const char *const *theta,
+                                const char *const *velocity, kapitza_endings **endings) {
+  where_job job = {.n = n, .theta = theta, .velocity = velocity, .scene = scene};
+  const kapitza_status status = kz_library_alone(ends_work, &job);
+  *endings = status == KAPITZA_OK ? job.endings : NULL;
+  return status;
+}
+
+static kz_status boundary_answer(const kz_scene *scene, void *context) {
+  const where_job *j = context;
+  kz_coordinate start[2][2];
+  KZ_AUTOFREE kz_boundary_point *point = kz_calloc(1, sizeof *point);
+  if (j->digits < 1 || j->digits > KZ_BOUNDARY_MOST_DIGITS)
+    return kz_fail(KZ_REFUSED, "digits: %lld: must be from 1 to %d", (long long)j->digits,
+                   (int)KZ_BOUNDARY_MOST_DIGITS);
+  KZ_TRY(starts_read(j, scene->parameters.pivot_frequency, false, start));
+  KZ_TRY(kz_where_boundary(scene, (const kz_coordinate(*)[2])start, j->digits, point));
+  kapitza_boundary *found = j->boundary;
+  snprintf(found->theta, sizeof found->theta, "%s", point->theta);
+  snprintf(found->velocity, sizeof found->velocity, "%s", point->velocity);
+  for (int i = 0; i < 2; i++) {
+    snprintf(found->name[i], sizeof found->name[i], "%s", point->name[i]);
+    found->attractor[i] = point->attractor[i];
+  }
+  return KZ_OK;
+}
+
+static kz_status boundary_work(void *context) {
+  const kz_scene_source text = kz_library_text(((where_job *)context)->scene);
+  return kz_scene_ask(&text, boundary_answer, context);
+}
+
+kapitza_status kz_library_boundary(const kapitza_scene *scene, const char *const *theta, const char *const *velocity,
+                                   int64_t digits, kapitza_boundary *boundary) {
+  where_job job = {
+      .n = 2, .theta = theta, .velocity = velocity, .scene = scene, .digits = digits, .boundary = boundary};
+  return kz_library_alone(boundary_work, &job);
 }
 
 /* ---- points of an atlas ---- */

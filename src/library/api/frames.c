@@ -36,7 +36,7 @@ static kz_status work_catalogue(kapitza_pendulum *p, void *context) {
   catalogue_job *j = context;
   const kz_live_catalogue *own;
   KZ_AUTOFREE_BY(kz_scene_free) kz_scene scene;
-  KZ_TRY(kz_scene_open(p->text, j->change, &scene));
+  KZ_TRY(kz_scene_open(&p->text, j->change, &scene));
   KZ_TRY(kz_engine_catalogue(p->engine, &scene, &own));
   j->catalogue = kz_border_give(catalogue_bytes(own));
   catalogue_put(own, j->catalogue);
@@ -121,7 +121,7 @@ static kz_status work_frame(kapitza_pendulum *p, void *context) {
   frame_job *j = context;
   KZ_AUTOFREE_BY(kz_scene_free) kz_scene scene;
   j->pendulum = p;
-  KZ_TRY(kz_scene_open(p->text, j->request->change, &scene));
+  KZ_TRY(kz_scene_open(&p->text, j->request->change, &scene));
   const kz_status status = frame_make(j, &scene);
   kz_engine_rest(p->engine);
   return status;
@@ -168,7 +168,7 @@ static kz_status work_chart(kapitza_pendulum *p, void *context) {
   KZ_AUTOFREE_BY(kz_scene_free) kz_scene scene = {0};
   j->pendulum = p;
   KZ_TRY(take_coarseness(j->n_parts, j->coarseness, &coarseness));
-  KZ_TRY(kz_scene_open(p->text, j->change, &scene));
+  KZ_TRY(kz_scene_open(&p->text, j->change, &scene));
   if (!scene.has_sweep) return kz_fail(KZ_REFUSED, "sweep: is missing; a chart needs its axes x and y");
   KZ_TRY(kz_drive_check_sine(&scene, KZ_ENDS_NEED_SINE));
   KZ_TRY(kz_plane_points(&scene, &points));

@@ -144,7 +144,7 @@ static kz_status work_basin(kapitza_pendulum *p, void *context) {
   KZ_AUTOFREE char *change = kz_malloc(bytes);
   KZ_AUTOFREE_BY(kz_scene_free) kz_scene scene;
   snprintf(change, bytes, "basin: {%s}", j->window ? j->window : "");
-  KZ_TRY(kz_scene_open(p->text, change, &scene));
+  KZ_TRY(kz_scene_open(&p->text, change, &scene));
   const int64_t columns = scene.basin->theta.count, rows = scene.basin->velocity.count;
   if (columns * rows > MOST_CELLS)
     return kz_fail(KZ_REFUSED, "%lld times %lld are more than %d cells; run a scene, which writes them to a file",

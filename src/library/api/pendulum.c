@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "../library.h"
+#include "kapitza/study_flutter.h"
 #include "kapitza/version.h"
 
 enum { WAIT_NANOSECONDS = 50000000 }; /* between two looks while another thread uses the pendulum */
@@ -97,7 +98,7 @@ typedef struct {
 
 static kz_status open_pendulum(kapitza_pendulum *p) {
   if (p->opened) return KZ_OK;
-  KZ_TRY(kz_scene_open(p->text, NULL, &p->scene));
+  KZ_TRY(kz_scene_open(&p->text, NULL, &p->scene));
   p->engine = kz_engine_create();
   p->flow[0] = p->flow[1] = NULL;
   p->atlas = NULL;
@@ -160,17 +161,54 @@ static void free_pendulum(kapitza_pendulum *p) {
   free(p);
 }
 
-kapitza_status kz_library_create(const char *scene, kapitza_pendulum **pendulum) {
-  const size_t bytes = strlen(scene) + 1;
+kz_scene_source kz_library_text(const kapitza_scene *scene) {
+  return (kz_scene_source){scene->text, scene->name, scene->n_sets, (char *const *)scene->sets};
+}
+
+static char *keep_text(const char *text, char **place) {
+  char *kept = strcpy(*place, text);
+  *place += strlen(text) + 1;
+  return kept;
+}
+
+/* A pendulum with a copy of the scene behind it. NULL: there is no memory. */
+static kapitza_pendulum *pendulum_with(const kapitza_scene *scene) {
+  size_t bytes = strlen(scene->text) + strlen(scene->name) + 2;
+  for (int i = 0; i < scene->n_sets; i++) bytes += sizeof(char *) + strlen(scene->sets[i]) + 1;
+  kapitza_pendulum *p = kz_border_give(sizeof *p + bytes);
+  if (!p) return NULL;
+  char **sets = (char **)(p + 1), *place = (char *)(sets + scene->n_sets);
+  for (int i = 0; i < scene->n_sets; i++) sets[i] = keep_text(scene->sets[i], &place);
+  p->text = (kz_scene_source){keep_text(scene->text, &place), keep_text(scene->name, &place), scene->n_sets, sets};
+  return p;
+}
+
+static kapitza_status lacks_memory(void) {
+  kz_fail(KZ_FAILED, "memory ran out");
+  return KAPITZA_NO_MEMORY;
+}
+
+kapitza_status kz_library_alone(kz_status (*work)(void *context), void *context) {
+  bool left;
+  kz_message_clear();
+  if (kz_tables_make() != KZ_OK) return KAPITZA_NO_MEMORY;
+  kz_border *border = kz_border_create();
+  if (!border) return lacks_memory();
+  const kapitza_status told =
+      kz_library_status(kz_border_call(border, kz_library_pause(), NULL, work, context, &left), border);
+  kz_border_free(border);
+  return told;
+}
+
+kapitza_status kz_library_create(const kapitza_scene *scene, kapitza_pendulum **pendulum) {
   *pendulum = NULL;
   kz_message_clear();
   if (kz_tables_make() != KZ_OK) return KAPITZA_NO_MEMORY;
-  kapitza_pendulum *p = kz_border_give(sizeof *p + bytes);
+  kapitza_pendulum *p = pendulum_with(scene);
   kz_border *border = p ? kz_border_create() : NULL;
   if (!border) {
     free(p);
-    kz_fail(KZ_FAILED, "memory ran out");
-    return KAPITZA_NO_MEMORY;
+    return lacks_memory();
   }
   pthread_mutexattr_t attributes;
   pthread_mutexattr_init(&attributes);
@@ -179,7 +217,6 @@ kapitza_status kz_library_create(const char *scene, kapitza_pendulum **pendulum)
   pthread_mutexattr_destroy(&attributes);
   p->border = border;
   p->process = getpid();
-  memcpy(p->text, scene, bytes);
   const kapitza_status status = kz_library_call(p, NULL, NULL);
   if (status == KAPITZA_OK)
     *pendulum = p;
@@ -205,4 +242,16 @@ static kz_status tell_parameters(kapitza_pendulum *p, void *context) {
 
 kapitza_status kapitza_parameters_of(kapitza_pendulum *pendulum, kapitza_parameters *parameters) {
   return kz_library_call(pendulum, tell_parameters, parameters);
+}
+
+static kz_status tell_needs(kapitza_pendulum *p, void *context) {
+  double *amplitude = context;
+  const kz_pendulum *pendulum = &p->scene.parameters.pendulum;
+  kz_standing_drives(pendulum, amplitude, amplitude + 1);
+  kz_flutter_drives(pendulum, amplitude + 2, amplitude + 3);
+  return KZ_OK;
+}
+
+kapitza_status kapitza_needs(kapitza_pendulum *pendulum, double amplitude[4]) {
+  return kz_library_call(pendulum, tell_needs, amplitude);
 }

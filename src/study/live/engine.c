@@ -17,14 +17,6 @@ kz_engine *kz_engine_create(void) {
   return engine;
 }
 
-void kz_engine_free(kz_engine *engine) {
-  if (!engine) return;
-  for (int i = 0; i < KZ_MOST_PREPARED; i++) kz_prepared_free(engine->prepared + i);
-  kz_kept_series_free(engine->series);
-  pthread_rwlock_destroy(&engine->changing);
-  free(engine);
-}
-
 /* The whole circle, and velocities up to the fastest of the window: what is known of a pendulum does not depend on
  * where one looks. The caller frees its plans. */
 static kz_scene engine_searched(const kz_engine *engine, const kz_scene *scene) {

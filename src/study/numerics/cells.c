@@ -10,10 +10,6 @@ __float128 kz_decimal_quad(const char *text) {
   return strcmp(end, " deg") == 0 ? number * strtof128(radians, NULL) : number;
 }
 
-kz_coordinate kz_decimal_coordinate(const kz_decimal *decimal) {
-  return (kz_coordinate){.high = decimal->high, .low = decimal->low, .centre = decimal->text};
-}
-
 static __float128 quad_of(const kz_decimal *decimal) {
   return (__float128)decimal->high + decimal->low;
 }

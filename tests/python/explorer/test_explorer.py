@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 import yaml
 from conftest import PROGRAM, ROOT, wait_for, with_extensive
-from explorer_page import Server, children_of
+from explorer_page import Server, children_of, words_of
 from kapitza import Pendulum, manifolds
 from kapitza.explorer.access import Access
 from kapitza.result import Result
@@ -39,8 +39,8 @@ def server():
 
 @pytest.fixture(scope="module")
 def striped():
-    """With the double of the program."""
-    running = Server(SMALL, fake=True)
+    """With the double of its engine."""
+    running = Server(None, striped=True)
     yield running
     assert running.end() == (0, "")
 
@@ -106,10 +106,22 @@ def test_a_newer_frame_ends_the_one_before_and_a_sudden_end_is_said(striped):
     assert next(slow)[0]["answer"] == "catalogue"  # it is at work
     assert striped.ask(FRAME | {"pendulum": {"m": 1}}, "slow")[-1][0]["answer"] == "frame"
     assert list(slow)[-1][0]["answer"] == "ended"
-    ended = striped.ask(FRAME | {"pendulum": {"m": 9}}, "slow")[-1][0]
-    assert (ended["answer"], ended["message"]) == ("error", "out of memory")
+    assert striped.request("ask?view=slow", FRAME | {"pendulum": {"m": 9}}) == (400, {"error": "the engine has ended"})
     assert striped.ask(FRAME | {"pendulum": {"m": 1}}, "slow")[-1][0]["answer"] == "frame"
     assert striped.ask(FRAME | {"pendulum": {"m": 8}}, "slow")[-1][0]["message"] == "pendulum.m: must not be 8"
+
+
+def test_an_engine_that_is_killed_in_the_middle_of_a_frame_is_replaced_and_the_frame_made(server):
+    """Within 2 s where the machine is idle; the page is told."""
+    whole = frame_of(server.ask(FRAME, "whole"))[0]
+    answers = server.answers(FRAME | {"rows": 400, "columns": 600, "levels": [8, 4, 2, 1]}, "killed")
+    assert next(answers)[0]["answer"] == "catalogue"
+    for child in server.children():
+        os.kill(child, signal.SIGKILL)
+    later = list(answers)
+    told = [header["restarted"] for header, _ in later if "restarted" in header]
+    assert told == ["the engine has ended (SIGKILL)"] and later[-1][0]["level"] == 1 and later[-1][0]["final"]
+    assert np.array_equal(frame_of(server.ask(FRAME, "whole"))[0], whole)
 
 
 def test_a_program_that_does_not_hear_is_replaced(striped):
@@ -283,11 +295,6 @@ def test_what_is_computed_in_the_background_ends_with_a_server_that_is_killed(tm
     finally:
         with suppress(ProcessLookupError):
             os.kill(computing, signal.SIGKILL)
-
-
-def words_of(process):
-    """The command line of a process."""
-    return Path(f"/proc/{process}/cmdline").read_bytes()
 
 
 def parent(process):

@@ -1,5 +1,5 @@
 """The explorer's page in a real browser: numbers of its modules, hands and keys, what is drawn, what it saves. Most of
-it stands on the double of the program (tests/tools/fake_serve.py), whose basins are stripes along theta."""
+it stands on the double of the engine (tests/tools/striped_view.py), whose basins are stripes along theta."""
 
 import json
 import re
@@ -251,7 +251,7 @@ def test_a_refusal_keeps_the_last_picture_blurred_and_the_view_lives_on(page, we
     # Nothing is said of pictures that are not computed
     assert page.pixels() == before and page.run(BLURRED) and page.shares() == []
     page.choose("value-m", "9")
-    assert page.wait(state="error") == "out of memory"
+    assert page.wait(state="error") == "the engine has ended"
     _ = page.choose("value-m", "0.3"), page.wait()
     assert page.pixels() == before and not page.run(BLURRED) and page.run("document.querySelector('.refusal').hidden")
 

@@ -9,9 +9,10 @@ import pytest
 import yaml
 from conftest import PROGRAM, ROOT
 from kapitza.explorer import atlas, overlays, stories
-from kapitza.explorer.program import Refused
+from kapitza.explorer.process import Refused
+from kapitza.explorer.requests import BadRequest
 from kapitza.explorer.run_cache import RunCache
-from kapitza.explorer.scene import BadRequest, Start
+from kapitza.explorer.scene import Start
 from kapitza.plots.page_options import colours_of
 from kapitza.result import BadFile
 from kapitza.scene import tree_of

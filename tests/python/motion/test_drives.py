@@ -257,13 +257,13 @@ def ends(server, **keys):
 
 @pytest.mark.parametrize("keys, basin", FRAMED)
 def test_frames_are_what_a_run_writes(kapitza, tmp_path, keys, basin):
-    """Of the engine that the explorer and kapitza.Engine use; `ready` has the keys as a request takes them back."""
+    """Of the engine of the explorer, which takes back the keys that it gives."""
     scene = {"pendulum": {**PENDULUM, **keys},
              "basin": {**WINDOW, **basin, "method": "exact", "attractors": {"starts": 256}}}
     file = run(kapitza, tmp_path, scene)
     points = np.column_stack([file["attractors/strobe_theta"][:, 0], file["attractors/strobe_velocity"][:, 0]])
     with Server(tmp_path / "rig.yaml") as server:
-        pendulum = server.ready["pendulum"]
+        pendulum = server.pendulum
         assert keys.items() <= pendulum.items() or pendulum["ramp"].items() >= keys["ramp"].items()
         exact = ends(server, pendulum=pendulum)
         assert np.allclose(exact, points[file["basin/attractor"][:]], rtol=0, atol=1e-10)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import yaml
 from conftest import ROOT, run_scene
-from kapitza import session
+from kapitza import starts
 
 SCENES = ROOT / "scenes" / "textbooks"
 PAGE = (ROOT / "docs" / "howto" / "textbooks.md").read_text()
@@ -162,7 +162,7 @@ def test_hubbard(kapitza, tmp_path):
 
 
 def turns_of(scene, theta, velocity, **keys):
-    return session.where(scene, theta, velocity, keys)["turns"].to_numpy(dtype=float, na_value=np.nan)
+    return starts.where(scene, theta, velocity, keys)["turns"].to_numpy(dtype=float, na_value=np.nan)
 
 
 def turned(theta, velocity, phase=0.0, periods=60, steps=400):

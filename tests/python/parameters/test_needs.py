@@ -35,9 +35,10 @@ def test_flutter_ends_where_its_period_doubles_whatever_the_damping(hertz, quali
 
 @pytest.mark.parametrize(("words", "said"), [
     (["--length", "20 cm"], "needs: --frequency is missing"),
-    (["--length", "200", "--frequency", "50"], '--length: "200" is taken for metres; give its unit'),
+    (["--length", "200", "--frequency", "50"],
+     "--length: 200 is taken for 200 m, more than a laboratory has; give its unit"),
     (["--length", "20", "kg", "--frequency", "50"], '--length: "20 kg" is in a unit of another quantity'),
-    (["--length", "-1", "--frequency", "50"], '--length: "-1" is out of range; give a number above 0 in m'),
+    (["--length", "-1", "--frequency", "50"], '--length: "-1" is out of range; it must be a number above 0 in m'),
     (["--length", "0.2", "--frequency", "1"],
      "--frequency: 1 Hz is not above that of the pendulum's own swings, 1.114 Hz"),
     (["--length", "0.2", "--frequency", "50", "--quality-factor", "0"], '--quality-factor: "0" is out of range')])

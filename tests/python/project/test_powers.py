@@ -126,7 +126,7 @@ def test_the_core_holds_no_symbol_of_a_power(core):
      "other words need the power release, which this build leaves out"),
     (["check", "small", "--set", "sweep={parameter: drive_amplitude, min: 0, max: 1, count: 2, measure: [phases]}"],
      "it needs the power release, which this build leaves out"),
-    (["where", "small", "0", "0"], "where: needs the power live, which this build leaves out")])
+    (["where", "small", "0", "0"], "where: needs the power library, which this build leaves out")])
 def test_what_is_missing_is_refused_by_the_name_of_its_power(core, words, told):
     words = [str(ROOT / "scenes" / "small.yaml") if word == "small" else word for word in words]
     done = subprocess.run([core, *words], capture_output=True, text=True)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from conftest import PROGRAM, ROOT
+from kapitza.program import command
 
 SMALL = ROOT / "scenes" / "small.yaml"
 FEW = ["--set", "basin.theta.count=9", "--set", "basin.velocity.count=9", "--set",
@@ -75,10 +76,16 @@ def test_the_explorer_is_opened_with_a_file_alone(tmp_path, name):
     assert done.returncode == 2 and "give the name of a scene file" in done.stderr, done.stderr
 
 
-@pytest.mark.parametrize("command", ["run", "check", "where", "view", "serve"])
+@pytest.mark.parametrize("command", ["run", "check", "where", "view"])
 def test_an_empty_name_is_refused(tmp_path, command):
     done = run([PROGRAM, command, "", *["0", "0"] * (command == "where")], tmp_path)
     assert done.returncode == 2 and f"{command}: the name of SCENE is empty" in done.stderr, done.stderr
+
+
+def test_a_command_that_is_gone_names_what_replaces_it(tmp_path):
+    done = run([PROGRAM, "serve", SMALL], tmp_path)
+    page = "docs/howto/other-languages.md"
+    assert done.returncode == 2 and page in done.stderr and (ROOT / page).exists()
 
 
 def test_a_second_run_is_told_that_the_first_one_works(tmp_path):
@@ -160,3 +167,21 @@ def test_the_control_group_of_the_process_counts(tmp_path, group):
     assert run(words, tmp_path).returncode == 0
     done = run([*words, "--set", "basin.theta.count=20000", "--set", "basin.velocity.count=20000"], tmp_path)
     assert done.returncode == 2 and "70.0 MB" in done.stderr, done.stderr
+
+
+def test_the_launcher_beside_the_program_is_taken(tmp_path, monkeypatch):
+    """It is of the program's own MPI, as in an environment of pip. Another one that a variable names is taken with a
+    warning."""
+    for name in ("kapitza", "mpiexec", "other"):
+        (tmp_path / name).touch(0o755)
+    monkeypatch.setenv("KAPITZA", str(tmp_path / "kapitza"))
+    monkeypatch.delenv("KAPITZA_MPIRUN", raising=False)
+    assert command(["check"], ranks=2) == [str(tmp_path / "mpiexec"), "-n", "2", str(tmp_path / "kapitza"), "check"]
+    monkeypatch.setenv("KAPITZA_MPIRUN", str(tmp_path / "other"))
+    with pytest.warns(UserWarning, match="the launcher of this program's own MPI is .*mpiexec"):
+        assert command(["check"], ranks=2)[0] == str(tmp_path / "other")
+    monkeypatch.setenv("KAPITZA_MPIRUN", str(tmp_path / "mpiexec"))
+    assert command(["check"], ranks=2)[0] == str(tmp_path / "mpiexec")
+    (tmp_path / "mpiexec").unlink()
+    monkeypatch.setenv("KAPITZA_MPIRUN", "srun")
+    assert command(["check"], ranks=2)[0] == "srun"

@@ -8,7 +8,7 @@ import subprocess
 import pytest
 from conftest import PROGRAM
 
-COMMANDS = ["run", "check", "where", "view", "plot", "info", "fit", "needs", "serve", "keys"]
+COMMANDS = ["run", "check", "where", "view", "plot", "info", "fit", "needs", "keys"]
 
 
 def output(*arguments):
