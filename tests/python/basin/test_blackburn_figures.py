@@ -57,7 +57,7 @@ def test_every_known_attractor_is_found_once(figure):
     assert len({row for row, _ in found}) == len(known)
 
 
-def test_none_is_listed_twice(figure):
+def test_no_attractor_is_listed_twice(figure):
     table = figure[1].group("attractors")
     points = [points_of(table, row) for row in range(table.sizes["attractor"])]
     for row, mine in enumerate(points):

@@ -241,7 +241,7 @@ def test_rest_where_rest_is_unstable_reaches_no_attractor(model, method):
 
 @pytest.mark.parametrize("theta, velocity",
                          [((-math.pi, math.pi, 1), (-2, 2, 10**6)), ((-math.pi, math.pi, 10**6), (-2, 2, 1))])
-def test_lines_of_cells(model, theta, velocity):
+def test_a_window_of_one_row_of_cells_is_labelled(model, theta, velocity):
     labels, names, _, attributes = model(*window(theta, velocity), "basin.method=icm",
                                          "basin.icm={theta: 1000, velocity: 1000}")
     assert labels.shape == (velocity[2], theta[2]) and (labels >= 0).mean() > 0.99

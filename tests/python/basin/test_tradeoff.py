@@ -133,7 +133,7 @@ def test_without_damping_there_is_nothing_to_trade(kapitza, tmp_path):
 
 
 @pytest.mark.extensive
-def test_the_picture(reference, tmp_path):
+def test_the_trade_off_is_drawn_per_run_and_per_cell(reference, tmp_path):
     for options in ([], ["--per-cell"]):
         done = plot("tradeoff", reference, "-o", tmp_path / "trade.png", *options)
         assert (done.returncode, done.stdout, done.stderr) == (0, f"{tmp_path / 'trade.png'}\n", "")

@@ -19,7 +19,7 @@ def driver(tmp_path):
         yield found
 
 
-def test_with_the_program(driver, kapitza, tmp_path):
+def test_labels_of_the_page_are_those_of_runs_of_the_saved_scenes(driver, kapitza, tmp_path):
     """The whole circle, a slider, a deep window, a start; labels are those of runs of the saved scenes."""
     running = Server(SMALL)
     page = Page(driver, running.address() + "#samples=1&level=measure&drawn=off")

@@ -218,7 +218,7 @@ def test_the_printed_pendulum_is_one_of_a_scene(tmp_path, viscous, said):
     assert checked.returncode == 0, checked.stderr
 
 
-def test_the_command(tmp_path):
+def test_the_command_fit_reads_tables_with_and_without_names(tmp_path):
     """A file with names, one without, and what is refused."""
     time = np.linspace(0, 9, 60)
     angles = np.degrees(track(DECAY, time))

@@ -86,7 +86,7 @@ def test_flutter_amplitude(model):
         assert abs(np.abs(orbit["maximum_angle"].values).max() - float(row["amp_rad"])) < 1e-8
 
 
-def test_butikov_fig2(model):
+def test_parametric_oscillation_is_that_of_butikov_fig2(model):
     for quality, row in REFERENCE["butikov_fig2_omega3.2_a0.388"].items():
         if not quality.startswith("Q"):
             continue
@@ -112,7 +112,7 @@ def test_butikov_fig3_third_harmonic(model):
 
 
 @pytest.mark.extensive
-def test_butikov_fig4(model):
+def test_harmonics_of_flutter_are_those_of_butikov_fig4(model):
     """Flutter without gravity: the ratios of the harmonics, damped and not."""
     for key, row in REFERENCE["butikov_fig4_k0"].items():
         damping, m = key.removeprefix("beta").split("_m")
@@ -137,7 +137,7 @@ def test_butikov_eq22_and_fig10a(drawn):
 
 
 @pytest.mark.parametrize("letter, leading", [("b", 5), ("c", 7)])
-def test_butikov_fig10bc(model, drawn, letter, leading):
+def test_dominant_lines_are_those_of_butikov_fig10bc(model, drawn, letter, leading):
     row = REFERENCE[f"butikov_fig10{letter}"]
     pendulum = {"k": float(row["k"]), "damping": 0, "m": float(row["m_exact_at_k"])}
     orbit = model(pendulum, orbit=linear(0, 0.1, 6)).group("orbit")
@@ -147,7 +147,7 @@ def test_butikov_fig10bc(model, drawn, letter, leading):
         assert abs(signed(orbit, j) / signed(orbit, leading) - float(wanted)) < 1e-8, line
 
 
-def test_butikov_fig12(drawn):
+def test_harmonics_at_the_second_tongue_are_those_of_butikov_fig12(drawn):
     """The harmonics at the lowest point of the second tongue, as cosine and sine parts of one time origin."""
     orbit = drawn("butikov-fig12")
     amplitude, phase = orbit["line_amplitude"].values, orbit["line_phase"].values

@@ -161,7 +161,7 @@ def test_trap_needs_both_directions(kapitza, tmp_path, scene, word):
     assert done.returncode == 1 and done.stderr.count("\n") == 1 and word in done.stderr
 
 
-def test_potential(kapitza, tmp_path):
+def test_the_potential_has_the_wells_of_its_formulas(kapitza, tmp_path):
     with run(kapitza, tmp_path,
              PENDULUM + "potential: {drive_amplitudes: [0.05, 0.2, 0.3], theta: {count: 201}}\n") as file:
         group = {name: item[:] for name, item in file["potential"].items()}

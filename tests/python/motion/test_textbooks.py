@@ -123,7 +123,7 @@ def test_two_words_for_one_torque_are_refused(kapitza, tmp_path, pendulum, named
     assert named in kapitza("run", "s.yaml", folder=tmp_path, status=2).stderr
 
 
-def test_taylor(kapitza, tmp_path):
+def test_period_doublings_are_those_of_taylor(kapitza, tmp_path):
     """Table 12.1."""
     result, _ = run_scene(kapitza, tmp_path, scene_of("taylor"))
     with h5py.File(result.path) as file:
@@ -153,7 +153,7 @@ def test_baker_and_gollub_and_giordano(kapitza, tmp_path, name, amplitude, motio
     assert found(kapitza, tmp_path, name, torque_ratio=amplitude) == motion
 
 
-def test_hubbard(kapitza, tmp_path):
+def test_turns_are_those_of_hubbard(kapitza, tmp_path):
     scene = scene_of("hubbard")
     scene["basin"] |= {"theta": {"count": 32}, "velocity": {"min": -3, "max": 5, "count": 32}}
     result, _ = run_scene(kapitza, tmp_path, scene)
@@ -226,7 +226,7 @@ def test_every_method_counts_turns(kapitza, tmp_path, method):
 
 
 @pytest.mark.parametrize(("ratio", "all_rest"), [(0.126, True), (0.1285, False)])
-def test_strogatz(kapitza, tmp_path, ratio, all_rest):
+def test_running_begins_where_strogatz_says(kapitza, tmp_path, ratio, all_rest):
     """Running begins at the homoclinic, 4 alpha/pi = .12732 for small alpha, .127008860 at alpha = .1."""
     scene = scene_of("strogatz", constant_torque_ratio=ratio)
     scene["basin"] |= {"theta": {"count": 16}, "velocity": {"min": 0, "max": 4, "count": 8}}
@@ -276,13 +276,13 @@ def test_landau_and_lifshitz(kapitza):
     )
 
 
-def test_kapitza(kapitza):
+def test_inverted_stands_where_kapitza_says(kapitza):
     """A omega = sqrt(2 g l)."""
     limit = limit_of_rest(kapitza, "kapitza", "inverted: stable .for amplitude from")
     assert math.isclose(limit * 1e-3 * 2 * math.pi * 50, math.sqrt(2 * 9.80665 * 0.2), rel_tol=1e-3)
 
 
-def test_butikov(kapitza):
+def test_resonance_begins_where_butikov_says(kapitza):
     assert limit_of_rest(kapitza, "butikov", "down: unstable .stable for drive_amplitude up to") == 0.1002
 
 

@@ -156,7 +156,7 @@ def test_a_wrong_key_is_told(pendulum):
         pendulum.basin(theta=0)
 
 
-def test_other_pendulums(pendulum):
+def test_with_makes_another_pendulum_and_keeps_the_first(pendulum):
     other = pendulum.with_(epsilon=0.31)
     assert other.parameters["m"] == 0.31 and pendulum.parameters["m"] == 0.3
     assert repr(pickle.loads(pickle.dumps(other)).parameters) == repr(other.parameters)
@@ -245,7 +245,7 @@ def test_a_long_search_looks_for_a_stop_all_the_time():
     assert np.diff(seen).max() < 0.1 * (seen[-1] - seen[0])
 
 
-def test_threads(pendulum):
+def test_threads_find_what_one_thread_finds(pendulum):
     """On one pendulum and on several: what one thread alone finds."""
     theta, velocity = np.linspace(-3, 3, 400), 0.4
     wanted = pendulum.where(theta, velocity).attractor.values
@@ -274,7 +274,7 @@ print(counted > 10000)
     assert done.stdout.strip() == "True", done
 
 
-def test_forks():
+def test_a_forked_process_uses_the_pendulum_between_calls_alone():
     """A process that was forked between calls uses the pendulum; one that was forked during a call is refused."""
     done = run("""
 import warnings; warnings.simplefilter("ignore")

@@ -185,7 +185,7 @@ def test_a_sweep_keeps_the_window_of_the_scene():
     assert swept["fraction"].values[:, inverted].sum(axis=1) == pytest.approx([1, 1])
 
 
-def test_single_starts(result):
+def test_where_labels_arrays_of_starts(result):
     table = kapitza.where(SMALL, [[3.1, "175 deg"], [0.1, "3.0"]], 0.0)
     assert table["theta"].tolist() == pytest.approx([3.1, np.radians(175), 0.1, 3.0])
     assert table["name"].tolist()[0] == "inverted" and table["name"][2] == "down" and table["decided"].all()

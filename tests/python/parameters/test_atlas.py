@@ -253,7 +253,7 @@ def test_shares_are_of_attractors_that_the_list_has(kapitza, tmp_path):
 
 
 @pytest.mark.extensive
-def test_pictures(atlas, tmp_path):
+def test_the_map_and_the_small_maps_are_drawn(atlas, tmp_path):
     """The map and the small maps."""
     from kapitza.plots import atlas as picture
 

@@ -54,7 +54,7 @@ def test_near_the_attractor(fig12):
     assert (table["amplification"] >= np.maximum(1, table["reactivity"]) * (1 - 1e-12)).all()
 
 
-def test_released_by_hand(fig12):
+def test_weighted_shares_are_those_of_random_releases(fig12):
     """170 +- 3 degrees: the pendulum stands, as fresh random starts say too."""
     table = fig12.measures
     stands = table[table["name"].str.startswith("inverted")]["weighted_share"].sum()
@@ -102,7 +102,7 @@ def test_any_number_of_ranks_and_a_stop(kapitza, tmp_path):
     ({"names": ["harmless"], "sizes": [0.3, 0.1]}, "measures.sizes: has a size that is not above the one before it"),
     ({"names": ["share"], "damping": 0}, "measures: needs damping"),
 ])
-def test_refused(kapitza, tmp_path, changes, words):
+def test_wrong_options_of_measures_are_refused(kapitza, tmp_path, changes, words):
     pendulum = {"k": 0.05, "damping": changes.pop("damping", 0.1), "m": 0.3}
     assert words in refused_scene(kapitza, tmp_path, {"pendulum": pendulum, "measures": WINDOW | changes})
 

@@ -90,5 +90,5 @@ def test_smallest_shocks_over_a_plane(kapitza, tmp_path):
     ({"measure": ["harmless"], "sizes": [0.1, 0.2]}, "sweep.sizes: a sweep takes one size"),
     ({"measure": ["share"], "parameter": "m"}, "contradicts"),
 ])
-def test_refused(kapitza, tmp_path, changes, words):
+def test_wrong_planes_of_measures_are_refused(kapitza, tmp_path, changes, words):
     assert words in refused_scene(kapitza, tmp_path, {"pendulum": PENDULUM, "sweep": KEYS | {"x": X, "y": Y} | changes})

@@ -42,7 +42,7 @@ def test_flutter_ends_where_its_period_doubles_whatever_the_damping(hertz, quali
     (["--length", "0.2", "--frequency", "1"],
      "--frequency: 1 Hz is not above that of the pendulum's own swings, 1.114 Hz"),
     (["--length", "0.2", "--frequency", "50", "--quality-factor", "0"], '--quality-factor: "0" is out of range')])
-def test_what_is_refused(words, said):
+def test_needs_refuses_wrong_words_in_one_line(words, said):
     done = ask(*words)
     assert (done.returncode, done.stdout) == (2, "") and done.stderr.startswith(f"kapitza: error: {said}")
     assert done.stderr.count("\n") == 1

@@ -95,7 +95,7 @@ def test_a_doubled_cycle_ends_where_it_is_born(sweep):
     assert np.isfinite(branches["branch_theta"][2:, flutter]).all()
 
 
-def test_short_lived_pair(sweep):
+def test_a_pair_between_two_values_has_its_births_and_ends(sweep):
     branches, _ = sweep("attractors", 0.5195, 0.5235, 5, more=", starts: 2048")
     low, high = (RANGES["period4_top"][key]["eps"] for key in ("low", "high"))
     assert ends(branches, "inverted 4-nodding", 2) == (near(low), "fold", near(high), "period_doubling")

@@ -30,7 +30,7 @@ def lab(colour, sight):
 
 
 @pytest.mark.parametrize("sight", SIGHT)
-def test_kinds_stay_apart(sight):
+def test_colours_of_kinds_stay_apart_for_every_sight(sight):
     colours = {**style.KINDS, "unsettled": style.UNSETTLED}
     near = {pair: np.linalg.norm(lab(colours[pair[0]], sight) - lab(colours[pair[1]], sight))
             for pair in itertools.combinations(colours, 2)}
@@ -71,10 +71,10 @@ def test_names_that_occur_twice_get_their_ids():
 
 @pytest.mark.parametrize("share, text", [(0.3191, "31.9 %"), (0.0012, "0.12 %"), (1e-6, "< 0.01 %"), (1, "100 %"),
                                          (0, "0 %")])
-def test_share_text(share, text):
+def test_shares_are_written_in_percent(share, text):
     assert style.share_text(share) == text
 
 
 @pytest.mark.parametrize("multiple, text", [(0, "0"), (1, "π"), (-0.5, "−π/2"), (1.5, "3π/2"), (-0.0, "0")])
-def test_pi_text(multiple, text):
+def test_angles_are_written_in_parts_of_pi(multiple, text):
     assert style.pi_text(multiple) == text

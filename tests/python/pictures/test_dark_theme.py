@@ -36,7 +36,7 @@ def test_a_figure_on_dark_paper():
     assert lightness(shades(0)) < lightness(shades(1)) < 0.5
 
 
-def test_hues_stay():
+def test_colours_keep_their_hue_on_dark_paper():
     for colour in ("#0072b2", "#009e73", "#d55e00", "#cc79a7", "#b8860b"):
         assert abs(hue(turned(colour, READABLE)) - hue(colour)) < 0.15
         assert lightness(turned(colour, READABLE)) >= READABLE - 0.01

@@ -84,7 +84,7 @@ def crafted(made_file, attribute, value, group="/"):
 
 
 @pytest.mark.extensive
-def test_crafted_texts(made_file, tmp_path):
+def test_titles_of_wrong_types_are_replaced(made_file, tmp_path):
     crafted(made_file, "title", [1, 2, 3])
     crafted(made_file, "scene_resolved", 5)
     result = kapitza.Result(made_file)

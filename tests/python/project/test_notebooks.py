@@ -18,5 +18,5 @@ def test_a_notebook_runs(path, tmp_path, monkeypatch):
     assert len(outputs) >= 3 and not [output for output in outputs if output.output_type == "error"]
 
 
-def test_there_are_five():
+def test_there_are_five_notebooks():
     assert [path.name[0] for path in NOTEBOOKS] == list("12345")

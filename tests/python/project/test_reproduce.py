@@ -92,7 +92,7 @@ def test_the_commands_of_the_gallery_are_valid(kapitza, tmp_path):
         assert done.returncode == 0 or done.returncode == 75 and "time limit" in done.stderr, (command, done.stderr)
 
 
-def test_verdicts():
+def test_a_number_agrees_within_half_a_digit_or_its_bar():
     """What is printed counts to half a unit of its last digit, a reference to its bar; a remark that explains nothing
     fails."""
     def found(ours, **more):

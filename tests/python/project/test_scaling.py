@@ -24,7 +24,7 @@ def test_constants_are_those_of_the_program():
 
 
 @pytest.mark.parametrize("ranks", [1, 2, 7, 40])
-def test_known_answers(ranks):
+def test_the_model_of_ranks_has_known_answers(ranks):
     """Free messages: equal tiles, as many for each; one tile longer than all others; every tile is done once."""
     even = Stage([0.5] * (ranks * 6), ranks, FREE)
     assert even.end == pytest.approx(3) and even.idle() == pytest.approx(0)

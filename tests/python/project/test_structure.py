@@ -176,7 +176,7 @@ def calls_of_studies():
 
 @pytest.mark.parametrize(("node_of", "pairs"), [(folder_of, edges), (file_of, edges), (file_of, calls),
                                                 (folder_of, calls_of_studies)])
-def test_no_circle(node_of, pairs):
+def test_no_folder_calls_itself_through_others(node_of, pairs):
     graph = {}
     for path, other in pairs():
         if node_of(path) != node_of(other):
