@@ -17,7 +17,8 @@ from kapitza.result import Result
 from kapitza.scene import Scene, SceneLike, new_path
 
 
-def run(scene: SceneLike, output: str | os.PathLike[str] | None = None, ranks: int = 1, set: Mapping[str, Any] | None = None,
+def run(scene: SceneLike, output: str | os.PathLike[str] | None = None, ranks: int = 1,
+        set: Mapping[str, Any] | None = None,
         resume: bool = False, progress: bool = True, *, method: str | None = None, force: bool = False) -> Result:
     """Models every study of a scene and returns its Result.
 
@@ -26,8 +27,9 @@ def run(scene: SceneLike, output: str | os.PathLike[str] | None = None, ranks: i
     :param scene: path of a scene file, YAML text, or a mapping
     :param output: name of the result file; None = a temporary file that is removed at the end of the session
     :param ranks: number of MPI processes
-    :param set: keys to change, such as `{"basin.theta.count": 200}`. A key of `pendulum` may stand alone, `{"drive_amplitude": 0.4}`; a
-        mapping such as `{"pendulum": {"drive_amplitude": 0.4}}` is merged with that of the scene, key by key
+    :param set: keys to change, such as `{"basin.theta.count": 200}`. A key of `pendulum` may stand alone,
+        `{"drive_amplitude": 0.4}`; a mapping such as `{"pendulum": {"drive_amplitude": 0.4}}` is merged with that of
+        the scene, key by key
     :param resume: continue from the checkpoint of `output`; if `output` is complete for this scene, read it
     :param progress: whether to show a progress bar
     :param method: `basin.method`: "exact", "direct" or "icm"
@@ -37,18 +39,21 @@ def run(scene: SceneLike, output: str | os.PathLike[str] | None = None, ranks: i
     """
     asked = Scene(scene, set, method)
     path = Path(output) if output is not None else new_path(f"{asked.stem}.h5")
-    words: list[str | os.PathLike[str]] = ["run", asked.path if asked.is_file else "-", *asked.sets, "-o", path, "--progress", "never"]
+    words: list[str | os.PathLike[str]] = ["run", asked.path if asked.is_file else "-", *asked.sets, "-o", path,
+                                           "--progress", "never"]
     words += ["--resume"] * resume + ["--force"] * force
     with tempfile.TemporaryDirectory(prefix="kapitza-run-") as folder:
         log = Path(folder) / "log"
-        summary = _follow(command([*words, "--log", log], ranks), asked, path, output is not None, Progress(log, progress), Path(folder))
+        summary = _follow(command([*words, "--log", log], ranks), asked, path, output is not None,
+                          Progress(log, progress), Path(folder))
     result = Result(path)
     result.summary = summary
     return result
 
 
 def _follow(line: list[str], scene: Scene, path: Path, named: bool, progress: Progress, folder: Path) -> str:
-    """Runs the command to its end and returns what it printed. Ctrl-C asks the program to stop; a second one kills it."""
+    """Runs the command to its end and returns what it printed. Ctrl-C asks the program to stop; a second one kills
+    it."""
     interrupted = False
     with (folder / "in").open("w+") as words, (folder / "out").open("w+") as out, (folder / "err").open("w+") as err:
         words.write("" if scene.is_file else scene.text)
@@ -114,8 +119,10 @@ def check(scene: SceneLike, set: Mapping[str, Any] | None = None) -> Check:
     return Check(facts["scene"], facts["studies"], facts["cells"], facts["text"])
 
 
-def orbit(scene: SceneLike, theta: Any = None, velocity: Any = None, *, attractor: int | str | None = None, periods: int | None = None,
-          transient: int = 0, closed: bool = False, set: Mapping[str, Any] | None = None, progress: bool = True) -> Result:
+def orbit(scene: SceneLike, theta: Any = None, velocity: Any = None, *, attractor: int | str | None = None,
+          periods: int | None = None,
+          transient: int = 0, closed: bool = False, set: Mapping[str, Any] | None = None,
+          progress: bool = True) -> Result:
     """Models one motion of the scene's pendulum, from a start or along an attractor.
 
     `result.group("orbit")` has time, theta, velocity, strobe points and spectral lines.
@@ -140,7 +147,8 @@ def orbit(scene: SceneLike, theta: Any = None, velocity: Any = None, *, attracto
         plan["start"] = {"theta": units.angle(theta), "velocity": units.velocity(velocity, omega)}
     if periods is not None:
         plan["periods"] = periods
-    return run({name: value for name, value in asked.tree().items() if name in kept and value != ""} | {"orbit": plan}, progress=progress)
+    return run({name: value for name, value in asked.tree().items() if name in kept and value != ""} | {"orbit": plan},
+               progress=progress)
 
 
 def _attractor_id(scene: Scene, wanted: int | str) -> int:
@@ -150,7 +158,8 @@ def _attractor_id(scene: Scene, wanted: int | str) -> int:
     found = run(scene, set={"basin.method": "direct"}, progress=False).attractors
     ids = found.index[found["name"] == wanted]
     if len(ids) == 0:
-        raise ValueError(f"{wanted!r} is not an attractor of the scene; its attractors are {', '.join(dict.fromkeys(found['name']))}")
+        raise ValueError(f"{wanted!r} is not an attractor of the scene; its attractors are "
+                         f"{', '.join(dict.fromkeys(found['name']))}")
     return int(ids[0])
 
 
@@ -162,8 +171,10 @@ def sweep(scene: SceneLike, parameter: str, values: Iterable[Any] | Mapping[str,
     `result.group("sweep")` has the numbers. Every study of the scene runs, as it does from the command line.
 
     :param parameter: key of the mapping `pendulum`, such as "drive_amplitude" or "pendulum.drive_amplitude"
-    :param values: the values, ascending, at most 256; or a range `{"min": 0.1, "max": 0.5, "count": 50}`, both ends included
-    :param measure: one or several measures of the study `sweep`, such as "attractors", "basin_fractions" or "release_angle"
+    :param values: the values, ascending, at most 256; or a range `{"min": 0.1, "max": 0.5, "count": 50}`, both ends
+        included
+    :param measure: one or several measures of the study `sweep`, such as "attractors", "basin_fractions" or
+        "release_angle"
     :param ranks: number of MPI processes
     :param output: name of the result file; None = a temporary file
     :param keys: further keys of the study `sweep`, such as `starts=4096`

@@ -1,1 +1,2 @@
-"""The explorer: a local page on which basins are zoomed and dragged; each view has an engine in a process of its own."""
+"""The explorer: a local page on which basins are zoomed and dragged; each view has an engine in a process of its
+own."""

@@ -5,7 +5,8 @@ import threading
 from urllib.parse import urlsplit
 
 LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
-UNUSED, PAGES = 16, 32  # addresses and pages that are remembered; the oldest addresses go first, and pages that have asked least lately
+# Addresses and pages that are remembered; the oldest addresses go first, and pages that have asked least lately
+UNUSED, PAGES = 16, 32
 
 
 class WrongArgument(ValueError):
@@ -16,17 +17,20 @@ def origin(text, option="--origin"):
     """An origin as browsers send it: scheme, host, and a port where it is not the scheme's own."""
     try:
         parts = urlsplit(text)
-        bad = parts.scheme not in ("http", "https") or not parts.hostname or parts.path.strip("/") or parts.query or "@" in parts.netloc
+        bad = parts.scheme not in ("http", "https") or not parts.hostname or parts.path.strip(
+            "/") or parts.query or "@" in parts.netloc
     except ValueError:
         bad = True
     if bad:
-        raise WrongArgument(f"{option}: {text} is not an origin; write for example https://hub.example.org or http://machine:8888")
+        raise WrongArgument(
+            f"{option}: {text} is not an origin; write for example https://hub.example.org or http://machine:8888")
     return text.rstrip("/")
 
 
 class Access:
-    """`origins`: those allowed beside the server's own ("https://hub.example.org"). Every page trades the token of its address, which is
-    good for once, for one of its own: what a browser's command line shows is worth nothing to those who read it later."""
+    """`origins`: those allowed beside the server's own ("https://hub.example.org"). Every page trades the token of its
+    address, which is good for once, for one of its own: what a browser's command line shows is worth nothing to those
+    who read it later."""
 
     def __init__(self, origins=()):
         self.origins = tuple(origin.rstrip("/") for origin in origins)
@@ -34,8 +38,8 @@ class Access:
         self._once, self._pages = [], []
 
     def knows(self, host, origin):
-        """Whether a request names this server, by a loopback name or an allowed origin, and comes from a page of it. Ports are free: a
-        forwarded port has another number here."""
+        """Whether a request names this server, by a loopback name or an allowed origin, and comes from a page of it.
+        Ports are free: a forwarded port has another number here."""
         host = host or ""
         name = host.rsplit(":", 1)[0] if not host.endswith("]") else host
         own = f"http://{host}"

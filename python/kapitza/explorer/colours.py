@@ -1,4 +1,5 @@
-"""Colours of the attractors of a view: those of the figures (kapitza.style), kept by each attractor while sliders move."""
+"""Colours of the attractors of a view: those of the figures (kapitza.style), kept by each attractor while sliders
+move."""
 
 import pandas
 
@@ -14,7 +15,8 @@ class Colours:
         self._kept = {}
 
     def added(self, attractors):
-        """The rows of a catalogue, each with its `colour`; where kept colours would look like new ones, all are chosen anew."""
+        """The rows of a catalogue, each with its `colour`; where kept colours would look like new ones, all are chosen
+        anew."""
         if not attractors:
             return []
         table = pandas.DataFrame(attractors)

@@ -1,4 +1,5 @@
-"""Connections of the explorer's server: so many at once, so long until they have shown a token. Those that have keep their place."""
+"""Connections of the explorer's server: so many at once, so long until they have shown a token. Those that have keep
+their place."""
 
 import resource
 import threading

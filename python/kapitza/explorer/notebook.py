@@ -14,7 +14,8 @@ _FRAME = re.compile(r"('self'|https?://[\w.\-*]+(:(\d+|\*))?|vscode-webview:)")
 
 
 class Shown:
-    """An explorer at work; shows its page where a notebook displays it. `explorer.close()` ends it, as the end of the kernel does."""
+    """An explorer at work; shows its page where a notebook displays it. `explorer.close()` ends it, as the end of the
+    kernel does."""
 
     def __init__(self, explorer, base, height):
         self._explorer, self._base, self._height = explorer, base, height
@@ -47,8 +48,8 @@ def explore(scene: SceneLike, *, set=None, height=760, port=0, base=None, origin
     :param set: keys to change, such as `{"pendulum.m": 0.4}`
     :param height: height of the cell, CSS pixels
     :param port: port of the server on the kernel's machine; 0 = a free one
-    :param base: address at which the browser reaches the server, with `{port}` in it; None = `http://127.0.0.1:{port}/`, or the server
-        proxy of JupyterHub
+    :param base: address at which the browser reaches the server, with `{port}` in it; None =
+        `http://127.0.0.1:{port}/`, or the server proxy of JupyterHub
     :param origins: origins of that address if it is on another machine, such as `["https://hub.example.org"]`
     :param frames: origins of pages that may contain the cell; None = this machine and `origins`
     """
@@ -56,7 +57,8 @@ def explore(scene: SceneLike, *, set=None, height=760, port=0, base=None, origin
     hub = os.environ.get("JUPYTERHUB_SERVICE_PREFIX")
     origins = [origin(text, "origins") for text in origins]
     if hub and base is None and not origins:
-        raise ValueError('behind JupyterHub the browser\'s origin must be named: explore(scene, origins=["https://hub.example.org"])')
+        raise ValueError('behind JupyterHub the browser\'s origin must be named: explore(scene, '
+                         'origins=["https://hub.example.org"])')
     frames = ["'self'", *LOCAL, *origins] if frames is None else list(frames)
     if bad := [text for text in frames if not _FRAME.fullmatch(text)]:
         raise ValueError(f"frames: {bad[0]} is not an origin; write for example https://hub.example.org")

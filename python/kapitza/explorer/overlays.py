@@ -23,15 +23,17 @@ def overlays(result):
 
 
 def skeleton(kept, request):
-    """(header, payload) of each answer: `progress`, then `skeleton` with the overlays of a pendulum: its saddles of one period and their
-    stable manifolds, which are the boundaries, inside of velocities up to `fastest`."""
+    """(header, payload) of each answer: `progress`, then `skeleton` with the overlays of a pendulum: its saddles of one
+    period and their stable manifolds, which are the boundaries, inside of velocities up to `fastest`."""
     pendulum, fastest = request.get("pendulum"), request.get("fastest")
-    if not isinstance(pendulum, dict) or isinstance(fastest, bool) or not isinstance(fastest, int | float) or not 0 < fastest <= 1000:
+    if not isinstance(pendulum, dict) or isinstance(fastest, bool) or not isinstance(
+        fastest, int | float) or not 0 < fastest <= 1000:
         raise BadRequest("a skeleton needs the mapping pendulum, and fastest: a velocity above 0 and up to 1000")
     scene = {"pendulum": pendulum, "saddles": {"velocity": {"min": -fastest, "max": fastest}, "max_period": 1}}
 
     def boundaries(result):
-        curves = manifolds(Pendulum({"pendulum": pendulum}), result.group("saddles"), kind="stable", length=LENGTH, max_speed=fastest)
+        curves = manifolds(Pendulum({"pendulum": pendulum}), result.group("saddles"), kind="stable", length=LENGTH,
+                           max_speed=fastest)
         return {"overlays": overlays(result) | {"manifolds": {"lines": _lines(curves)}}}, b""
 
     return kept.answers(scene, boundaries, answer="skeleton", final=True)
@@ -45,7 +47,8 @@ def _points(table):
 
 
 def _lines(table):
-    """Polylines: rows of a matrix, or runs of one (saddle, branch, kind) in a list of points; cut where the angle wraps."""
+    """Polylines: rows of a matrix, or runs of one (saddle, branch, kind) in a list of points; cut where the angle
+    wraps."""
     theta, velocity = table["theta"].values, table["velocity"].values
     ends = np.zeros(theta.shape, dtype=bool)
     for name in ("saddle", "branch", "kind"):

@@ -60,7 +60,8 @@ class View:
         self._last_frame, self._closed, self._finished = None, False, False
         self.used = time.monotonic()
         try:
-            said = self._connection.recv()[1] if self._connection.poll(START) else {"message": "the engine is not ready in time"}
+            said = (self._connection.recv()[1]
+                    if self._connection.poll(START) else {"message": "the engine is not ready in time"})
         except EOFError:
             said = {"message": self._why()}
         if said.get("answer") != "ready":
@@ -101,10 +102,12 @@ class View:
     def _why(self):
         self._process.join(1)
         code = self._process.exitcode
-        return f"the engine has ended ({signal.Signals(-code).name})" if code is not None and code < 0 else "the engine has ended"
+        return (f"the engine has ended ({signal.Signals(-code).name})"
+                if code is not None and code < 0 else "the engine has ended")
 
     def answers(self, request):
-        """(header, payload) of each answer to the request; Ended where the process ends before the last one, unless another was wanted."""
+        """(header, payload) of each answer to the request; Ended where the process ends before the last one, unless
+        another was wanted."""
         kind, before, final = request.get("request"), self._last_frame, False
         self.used = time.monotonic()
         pending = self._send(request)
@@ -147,7 +150,8 @@ def _taken(connection: Connection, size):
 
 
 class Views:
-    """The engines by the names that pages give their views. `colours`: makes what adds colours to the catalogues of a view."""
+    """The engines by the names that pages give their views. `colours`: makes what adds colours to the catalogues of a
+    view."""
 
     def __init__(self, scene, colours, engine=Engine):
         self._arguments, self._colours = (engine, scene), colours
@@ -155,8 +159,8 @@ class Views:
         self._views = {}
 
     def answers(self, name, request):
-        """Those of the view of that name. An engine that ends, or does not end a frame, is replaced, which the next answer tells by
-        `restarted`; a request at which two end is refused."""
+        """Those of the view of that name. An engine that ends, or does not end a frame, is replaced, which the next
+        answer tells by `restarted`; a request at which two end is refused."""
         view = self.view(name)
         try:
             yield from view.answers(request)

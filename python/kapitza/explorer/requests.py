@@ -8,7 +8,7 @@ import numpy as np
 
 from kapitza.live import PLANES, Live, change
 
-MOST_CELLS = 1 << 24  # of a frame, or samples of an orbit
+MOST_CELLS = 1 << 24  # cells of a frame, or samples of an orbit
 Answer = tuple[dict[str, Any], Sequence[np.ndarray]]
 Show = Callable[[dict[str, Any], Sequence[np.ndarray]], None]
 
@@ -32,7 +32,8 @@ class Engine:
             return self._chart(request, show, between)
         make = {"where": self._where, "orbit": self._orbit, "catalogue": self._catalogue}.get(str(kind))
         if make is None:
-            raise BadRequest(f"request: {str(kind)[:60]!r} is unknown; it must be frame, where, orbit, catalogue, chart or cancel")
+            raise BadRequest(
+                f"request: {str(kind)[:60]!r} is unknown; it must be frame, where, orbit, catalogue, chart or cancel")
         show(*make(request))
         return True
 
@@ -58,11 +59,14 @@ class Engine:
             if catalogue["version"] != shown:
                 shown = catalogue["version"]
                 show({"answer": "catalogue", **catalogue, "final": False}, ())
-            show({"answer": "frame", **header, "catalogue": shown, "quality": quality, "planes": planes}, [values[name] for name in planes])
+            show({"answer": "frame", **header, "catalogue": shown, "quality": quality, "planes": planes},
+                 [values[name] for name in planes])
             return True
 
-        return self._live.frame(part, between, changed=change(pendulum=_mapping(request, "pendulum"), basin=basin), planes=planes,
-                                moving=quality == "moving", coarseness=_levels(request), atlas=request.get("atlas"), point=point)
+        return self._live.frame(part, between, changed=change(pendulum=_mapping(request, "pendulum"), basin=basin),
+                                planes=planes,
+                                moving=quality == "moving", coarseness=_levels(request), atlas=request.get("atlas"),
+                                point=point)
 
     def _chart(self, request: Mapping[str, Any], show: Show, between: Callable[[], bool]) -> bool:
         axes = {axis: _mapping(request, axis) for axis in ("x", "y")}
@@ -86,12 +90,15 @@ class Engine:
         transient = _integer(request, "transient", 0, 10_000_000, 0)
         samples = _integer(request, "samples_per_period", 1, 4096, 64)
         if periods * samples > MOST_CELLS:
-            raise BadRequest(f"periods: {periods} times {samples} samples_per_period are more than {MOST_CELLS} samples")
+            raise BadRequest(
+                f"periods: {periods} times {samples} samples_per_period are more than {MOST_CELLS} samples")
         live = self._live.with_pendulum(_mapping(request, "pendulum"))
         values = live.orbit(_number(request, "theta"), _number(request, "velocity"), periods, transient, samples)
         numbers = live.parameters
-        return {"answer": "orbit", "final": True, "samples": values.shape[1], "samples_per_period": samples, "transient": transient,
-                "k": numbers["k"], "damping": numbers["beta"], "m": numbers["m"], "pivot": live.pivot(samples)}, [values]
+        return {"answer": "orbit", "final": True, "samples": values.shape[1], "samples_per_period": samples,
+                "transient": transient,
+                "k": numbers["k"], "damping": numbers["beta"], "m": numbers["m"],
+                "pivot": live.pivot(samples)}, [values]
 
     def _catalogue(self, request: Mapping[str, Any]) -> Answer:
         found = self._live.catalogue(change(pendulum=_mapping(request, "pendulum")))

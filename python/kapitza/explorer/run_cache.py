@@ -22,7 +22,8 @@ MOST_KEPT = 100  # results; the oldest go first
 LEFT = 3600.0    # seconds after which nobody works in a folder that has not changed
 CALM = 5         # added to its nice value: the page's pictures go first
 DAMAGE = (BadFile, LookupError, OSError, RuntimeError, TypeError, ValueError)  # errors of reading a damaged file
-# Python that becomes the command behind it, which Linux kills with this process, however this ends (1: PR_SET_PDEATHSIG, 9: SIGKILL). Not a
+# Python that becomes the command behind it, which Linux kills with this process, however this ends (1:
+# PR_SET_PDEATHSIG, 9: SIGKILL). Not a
 # preexec_fn, which is not safe beside threads.
 BOUND = """import ctypes, os, sys
 ctypes.CDLL(None).prctl(1, 9)
@@ -35,7 +36,8 @@ _PLACE = re.compile(r"^-:\d+:\d+: ")  # in a text that nobody wrote
 
 
 class RunCache:
-    """Those of one explorer. `program`: the executable; `numerics`: of its scene, or None; `folder`: None = in the user's cache."""
+    """Those of one explorer. `program`: the executable; `numerics`: of its scene, or None; `folder`: None = in the
+    user's cache."""
 
     def __init__(self, program, numerics=None, folder=None):
         self._program, self._folder = Path(program), folder and Path(folder)
@@ -56,9 +58,9 @@ class RunCache:
         return str(path) if re.fullmatch("[0-9a-f]{32}", str(name)) and path.exists() else None
 
     def answers(self, scene, make, calm=CALM, **more):
-        """(header, payload) of each answer: `progress` while the program computes, `calm` nicer than the page's pictures, then what `make`
-        makes of the result, with the keys `more`. A kept result that is damaged is computed again. Refused, with the program's words, where
-        it cannot compute it."""
+        """(header, payload) of each answer: `progress` while the program computes, `calm` nicer than the page's
+        pictures, then what `make` makes of the result, with the keys `more`. A kept result that is damaged is computed
+        again. Refused, with the program's words, where it cannot compute it."""
         path, made = self._place(scene), None
         if path.exists():
             try:
@@ -107,7 +109,8 @@ class RunCache:
             command = [str(self._program), "run", "-", "-o", str(made), "--progress", "never"]
             with words.open() as given, errors.open("w") as said:
                 process = subprocess.Popen([sys.executable, "-ISc", BOUND, str(os.getpid()), *command], stdin=given,
-                                           stdout=subprocess.DEVNULL, stderr=said, env=environment(), start_new_session=True)
+                                           stdout=subprocess.DEVNULL, stderr=said, env=environment(),
+                                           start_new_session=True)
             self._running.add(process)
             try:
                 os.setpriority(os.PRIO_PROCESS, process.pid, calm)
@@ -127,7 +130,8 @@ class RunCache:
 
 
 def _tidy(results):
-    """Removes the oldest results, and folders that explorers have left which were killed; another explorer may be at it too."""
+    """Removes the oldest results, and folders that explorers have left which were killed; another explorer may be at it
+    too."""
     with suppress(FileNotFoundError):
         for old in sorted(results.glob("*.h5"), key=lambda file: file.stat().st_mtime)[:1 - MOST_KEPT]:
             old.unlink()

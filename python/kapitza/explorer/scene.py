@@ -20,12 +20,13 @@ HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 WINDOW = {"theta": {"min": str(-math.pi), "max": str(math.pi)}, "velocity": {"min": "-2", "max": "2"}}
 GRAVITY = 9.80665  # m/s^2, where a scene gives none
 EDGES = ("min", "max", "centre", "width")
-LEFT_OUT = ("accuracy", "proof", "theta", "velocity", "method")  # keys of a basin that a view has of its own, or does not need
+# Keys of a basin that a view has of its own, or does not need
+LEFT_OUT = ("accuracy", "proof", "theta", "velocity", "method")
 
 
 class Start:
-    """A scene: of a file, of a result (whose groups bring overlays), of a picture that the page saved, or a text. `sets`: words KEY=VALUE
-    that change it; `name`: as messages call it."""
+    """A scene: of a file, of a result (whose groups bring overlays), of a picture that the page saved, or a text.
+    `sets`: words KEY=VALUE that change it; `name`: as messages call it."""
 
     def __init__(self, source, is_text=False, sets=()):
         self.result, self.name = None, "the scene" if is_text else str(source)
@@ -43,9 +44,11 @@ class Start:
         self.tree = _changed(tree_of(self.text), self.sets)
 
     def engine(self):
-        """The arguments of an engine of the scene: text, name, changes, starts of charts. A text that nobody wrote has no name."""
+        """The arguments of an engine of the scene: text, name, changes, starts of charts. A text that nobody wrote has
+        no name."""
         sweep = self.tree.get("sweep")
-        return self.text, "scene" if self.path is None else str(self.path), self.sets, sweep.get("ends") if isinstance(sweep, dict) else None
+        return self.text, "scene" if self.path is None else str(self.path), self.sets, sweep.get("ends") if isinstance(
+            sweep, dict) else None
 
     def pendulum(self):
         """The mapping pendulum: numbers, and texts where the scene writes a unit or a word."""
@@ -54,11 +57,13 @@ class Start:
         return {"gravity": GRAVITY} | values if values.keys() & {"length", "radius"} else values
 
     def window(self):
-        """The window of the scene's basin, with the digits that it gives; in rad and rad per drive radian where it has units."""
+        """The window of the scene's basin, with the digits that it gives; in rad and rad per drive radian where it has
+        units."""
         basin, omega = self.tree.get("basin"), written_frequency(self.pendulum())
         axes = basin if isinstance(basin, dict) else WINDOW
         return {"theta": _edges(axes.get("theta"), units.angle) or WINDOW["theta"],
-                "velocity": _edges(axes.get("velocity"), lambda text: units.velocity(text, omega)) or WINDOW["velocity"]}
+                "velocity": _edges(axes.get("velocity"), lambda text: units.velocity(text, omega))
+                or WINDOW["velocity"]}
 
     def view(self, request):
         """The scene of a view as people write it. What the scene leaves out stays left out."""
@@ -73,14 +78,17 @@ class Start:
 
 
 def _scene_of(result):
-    """The scene of a result as written, with the pendulum and the window that it was run with (they may have been set beside it)."""
+    """The scene of a result as written, with the pendulum and the window that it was run with (they may have been set
+    beside it)."""
     written, resolved = (tree_of(str(result.attributes.get(name, ""))) for name in ("scene", "scene_resolved"))
     if "pendulum" not in resolved:
         raise BadFile(f"{result.path}: holds no scene of a pendulum")
-    tree = {name: value for name, value in written.items() if name in ("title", "numerics", "basin")} | {"pendulum": resolved["pendulum"]}
+    tree = {name: value for name, value in written.items()
+            if name in ("title", "numerics", "basin")} | {"pendulum": resolved["pendulum"]}
     if isinstance(resolved.get("basin"), dict):
         basin = tree["basin"] if isinstance(tree.get("basin"), dict) else {}
-        tree["basin"] = basin | {axis: resolved["basin"][axis] for axis in ("theta", "velocity") if axis in resolved["basin"]}
+        tree["basin"] = basin | {axis: resolved["basin"][axis] for axis in ("theta", "velocity")
+                                 if axis in resolved["basin"]}
     return _written(tree)
 
 

@@ -25,8 +25,8 @@ FIRST = "first"      # the view that is begun before a page comes
 
 
 class Explorer:
-    """The server with its views. `program`: the executable of maps and saddles; `origins`: of pages that may ask beside its own; `frames`:
-    that may show it in a frame; `engine`: what makes the engine of a view."""
+    """The server with its views. `program`: the executable of maps and saddles; `origins`: of pages that may ask beside
+    its own; `frames`: that may show it in a frame; `engine`: what makes the engine of a view."""
 
     def __init__(self, start: Start, program, port=0, origins=(), frames=(), engine=Engine):
         self.start, self.views = start, Views(start.engine(), _coloured, engine)
@@ -79,7 +79,8 @@ def _coloured():
 
 
 def _doors(port, gate, handler):
-    """Listening sockets on 127.0.0.1 and, where this machine has it, [::1]: nobody else shall have the same port there."""
+    """Listening sockets on 127.0.0.1 and, where this machine has it, [::1]: nobody else shall have the same port
+    there."""
     for attempt in range(20):
         first = Door(socket.AF_INET, ("127.0.0.1", port), handler, gate)
         try:
@@ -95,8 +96,8 @@ def _doors(port, gate, handler):
 
 
 class Handler(BaseHTTPRequestHandler):
-    """GET: the page's files. POST: `token` and `close`, which bring their token in the body; `ask?view=NAME` and what RUNS holds, whose
-    answers are passed on as they come; and what ANSWERS holds."""
+    """GET: the page's files. POST: `token` and `close`, which bring their token in the body; `ask?view=NAME` and what
+    RUNS holds, whose answers are passed on as they come; and what ANSWERS holds."""
 
     explorer: Explorer
     protocol_version = "HTTP/1.1"
@@ -126,7 +127,8 @@ class Handler(BaseHTTPRequestHandler):
         name = name.lstrip("/")
         try:
             if not self.explorer.access.knows(self.headers.get("Host"), self.headers.get("Origin")):
-                raise PermissionError("this page comes from another origin; start kapitza view with --origin to allow it")
+                raise PermissionError(
+                    "this page comes from another origin; start kapitza view with --origin to allow it")
             if name == "token":
                 return self._trade(self._request())
             if name == "close":
@@ -227,8 +229,10 @@ class Handler(BaseHTTPRequestHandler):
     def _begin(self, status, headers):
         frames = " ".join(self.explorer.frames)
         fixed = {"Cache-Control": "no-store", "Referrer-Policy": "no-referrer", "X-Content-Type-Options": "nosniff",
-                 "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; img-src data: blob:; "
-                 f"connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors {frames or chr(39) + 'none' + chr(39)}"}
+                 "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; img-src data: "
+                                            "blob:; "
+                 "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors "
+                 f"{frames or chr(39) + 'none' + chr(39)}"}
         if not frames:
             fixed["X-Frame-Options"] = "DENY"
         if self.close_connection:

@@ -12,10 +12,11 @@ from kapitza.units import written_frequency
 from .requests import BadRequest
 
 WHOLE = {"title": str, "pendulum": dict, "window": dict, "steps": list}  # keys of a story
-STEP = {"say": str, "pendulum": dict, "window": dict, "boundary": (int, float), "start": dict, "view": str, "fill": str, "map": str,
-        "speed": (int, float), "glide": (int, float)}
+STEP = {"say": str, "pendulum": dict, "window": dict, "boundary": (int, float), "start": dict, "view": str, "fill": str,
+        "map": str, "speed": (int, float), "glide": (int, float)}
 LONGEST = 100  # characters of a value in a message
-WORDS = {"view": ("pendulum", "trace", "phase", "strobe", "spectrum"), "fill": ("", "basins", "motion"), "map": ("on", "off")}
+WORDS = {"view": ("pendulum", "trace", "phase", "strobe", "spectrum"), "fill": ("", "basins", "motion"),
+         "map": ("on", "off")}
 
 
 def written(folder):
@@ -60,7 +61,8 @@ def _check(table, known, place, needed):
 
 
 def _is_plain(value):
-    """Whether it is a text, a number, or lists and mappings of them: no date, nothing that is left out, no number beyond doubles."""
+    """Whether it is a text, a number, or lists and mappings of them: no date, nothing that is left out, no number
+    beyond doubles."""
     if isinstance(value, dict):
         return all(isinstance(key, str) for key in value) and all(map(_is_plain, value.values()))
     if isinstance(value, list):

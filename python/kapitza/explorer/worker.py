@@ -42,7 +42,8 @@ def keep_memory():
 
 
 class Worker:
-    """Answers requests in turn; those that are no frame or chart between two parts of one. A newer frame or chart ends older ones."""
+    """Answers requests in turn; those that are no frame or chart between two parts of one. A newer frame or chart ends
+    older ones."""
 
     def __init__(self, connection, engine):
         self._connection, self._engine = connection, engine
@@ -90,7 +91,8 @@ class Worker:
 
     def _answer(self, number, request):
         try:
-            if not self._engine.answers(request, lambda header, planes: self._send(number, header, planes), self._between):
+            if not self._engine.answers(request, lambda header, planes: self._send(number, header, planes),
+                                        self._between):
                 self._end(number)
         except (BadRequest, SceneError, RunError, MemoryError, ValueError) as error:
             self._send(number, plain_error(error))
