@@ -94,6 +94,7 @@ _SCENES = {
     "chart-butikov": [_ENDS],
     "escape-fig12": [_ESCAPE],
     "escape-line": [_BARRIER],
+    "escape-plane": [_BARRIER],
     "formula-errors": [_ERRORS],
     "josephson": [_SWEEP],
     "laboratory": [_LABORATORY],

@@ -86,8 +86,8 @@ class WaysOut:
         costs = self.matrix.fillna(np.inf)
         for middle in self.names:
             costs = np.minimum(costs, costs[[middle]].to_numpy() + costs.loc[[middle]].to_numpy())
-        np.fill_diagonal(costs.values, np.diag(self.matrix))
-        return costs.replace(np.inf, np.nan)
+        own = np.eye(len(costs), dtype=bool)
+        return costs.mask(own, self.matrix).replace(np.inf, np.nan)
 
     @property
     def lives(self) -> pandas.DataFrame:

@@ -218,22 +218,35 @@ static bool tile_note(const plane_tile *t, const int64_t at[2], const kz_escape_
   return true;
 }
 
-/* Continues a path from its place along an axis to the edge of the patch; `rows`: from each place along the other axis
- * too. */
-static void tile_sweep(const plane_tile *t, int axis, int side, bool rows, const kz_escape_member *from) {
+/* Continues a path from the middle of the patch to all places that it reaches, from neighbour to neighbour. */
+static void tile_flood(const plane_tile *t, const kz_escape_member *from) {
+  enum { ATTEMPTS = 2 /* neighbours from which a place is tried */ };
   const bool turns = t->w->places.n_axes == 1;
-  int64_t at[2] = {(int64_t)from->at[0], (int64_t)from->at[1]};
-  kz_escape_member m;
-  kz_escape_member_copy(from, &m);
-  for (;;) {
-    at[axis] += side;
-    if (at[axis] < t->patch.first[axis] || at[axis] >= t->patch.first[axis] + t->patch.count[axis]) break;
-    if (!kz_escape_continue(&t->w->places, tile_site(t, at), (double[]){(double)at[0], (double)at[1]}, turns, &m))
-      break;
-    if (!tile_note(t, at, &m)) break;
-    for (int other = -1; rows && other <= 1; other += 2) tile_sweep(t, 1, other, false, &m);
-  }
-  kz_escape_member_free(&m);
+  const int64_t n = t->patch.count[0] * t->patch.count[1];
+  KZ_AUTOFREE kz_escape_member *member = kz_calloc((size_t)n + 1, sizeof *member);
+  KZ_AUTOFREE int32_t *attempts = kz_calloc((size_t)n + 1, sizeof *attempts);
+  int64_t reached = 1;
+  kz_escape_member_copy(from, member);
+  attempts[tile_index(t, t->patch.middle)] = ATTEMPTS;
+  for (int64_t i = 0; i < reached; i++)
+    for (int way = 0; way < 4; way++) {
+      const int axis = way / 2;
+      int64_t at[2] = {(int64_t)member[i].at[0], (int64_t)member[i].at[1]};
+      at[axis] += way % 2 ? 1 : -1;
+      if (at[axis] < t->patch.first[axis] || at[axis] >= t->patch.first[axis] + t->patch.count[axis]) continue;
+      int32_t *left = attempts + tile_index(t, at);
+      if ((*left)++ >= ATTEMPTS) continue;
+      kz_escape_member *next = member + reached;
+      kz_escape_member_copy(member + i, next);
+      const double place[2] = {(double)at[0], (double)at[1]};
+      const bool good = kz_escape_continue(&t->w->places, tile_site(t, at), place, turns, next);
+      if (good) *left = ATTEMPTS;
+      if (good && tile_note(t, at, next))
+        reached++;
+      else
+        kz_escape_member_free(next);
+    }
+  for (int64_t i = 0; i < reached; i++) kz_escape_member_free(member + i);
 }
 
 /* Record: a plane_point for each place of the patch. */
@@ -250,10 +263,7 @@ static kz_status plane_tile_work(void *context, int64_t tile, void *record) {
     for (int c = 0; c < 2; c++) member[f].at[c] = (double)t.patch.middle[c];
     status = kz_ranks_interrupted(w->run->ranks);
     if (status != KZ_OK || !tile_note(&t, t.patch.middle, member + f)) continue;
-    for (int side = -1; side <= 1; side += 2) {
-      tile_sweep(&t, 0, side, true, member + f);
-      tile_sweep(&t, 1, side, false, member + f);
-    }
+    tile_flood(&t, member + f);
   }
   for (int f = 0; f < families; f++) kz_escape_member_free(member + f);
   for (int64_t i = 0; i < n; i++) kz_escape_site_close(t.site + i);

@@ -1,8 +1,11 @@
 """The study escape: barriers at Blackburn's pendulum, islands, mirror images, ranks, what is refused."""
 
+import re
+import sys
+
 import numpy as np
 import pytest
-from conftest import datasets, plot, refused_scene, run_scene, stopped_and_resumed, with_extensive
+from conftest import ROOT, datasets, plot, refused_scene, run_scene, stopped_and_resumed, with_extensive
 from kapitza import Pendulum, SceneError
 
 SCENE = {"pendulum": {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3},
@@ -75,6 +78,8 @@ def test_a_path_obeys_the_equation_and_costs_its_action(fig12):
 def test_pictures_and_what_they_refuse(fig12, tmp_path):
     path = fig12[0].path
     assert plot("escape", path, "--attractor", "inverted", "-o", tmp_path / "way.png", "--dpi", "60").returncode == 0
+    refused = plot("escape", path, "--view", "barrier", "-o", tmp_path / "no.png").stderr
+    assert "escape.x and escape.y give them" in refused
     assert "escape.into_every_basin gives the others" in plot("escape", path, "--into", "down", "-o",
                                                               tmp_path / "no.png").stderr
     assert "has no attractor nodding" in plot("escape", path, "--attractor", "nodding", "-o",
@@ -124,9 +129,9 @@ def along(low, high, count, name="x", parameter="drive_amplitude"):
     return {name: {"parameter": parameter, "min": low, "max": high, "count": count}}
 
 
-def over(kapitza, tmp_path, epsilon, axes, ranks=1, **escape):
+def over(kapitza, tmp_path, epsilon, axes, ranks=1, max_period=2, **escape):
     """The line or the plane of the inverted state's barrier."""
-    scene = at(epsilon, **escape, **axes)
+    scene = at(epsilon, max_period, **escape, **axes)
     found, _ = run_scene(kapitza, tmp_path, {name: scene[name] for name in ("pendulum", "attractors")},
                          name="attractors")
     inverted = named(found, "attractors", "inverted")[0]
@@ -145,6 +150,8 @@ def test_a_barrier_is_continued_along_a_key(kapitza, tmp_path):
         assert barrier[i] == pytest.approx(value, rel=3e-8)
     assert "at 6 of 6 places; largest at drive_amplitude = 0.25" in summary
     assert np.isnan(np.delete(escape["line_barrier"].values, inverted, axis=0)).all()
+    drawn = result.plot("escape", view="barrier", no_title=True).axes[0]
+    assert [line.get_label() for line in drawn.lines] == ["least action found", "averaged potential, (12)"]
     close, inverted, _ = over(kapitza, tmp_path, 0.25, along(0.2499, 0.2501, 3))
     escape = close.group("escape")
     difference = np.diff(escape["line_barrier"].values[inverted][[0, 2]])[0] / 0.0002
@@ -158,6 +165,8 @@ def test_the_bytes_of_a_plane_do_not_depend_on_the_ranks(kapitza, tmp_path):
     other = stopped_and_resumed(kapitza, tmp_path, scene, ranks=3)
     assert datasets(other.path) == datasets(result.path)
     escape = result.group("escape")
+    plane = result.plot("escape", view="barrier", no_title=True)
+    assert plane.axes[0].get_ylabel() == "quality factor Q"
     barrier = escape["plane_barrier"].values[inverted]
     assert barrier.shape == (3, 4) and np.all(np.diff(barrier, axis=1) > 0)
     middle = escape["plane_barrier_by_y"].values[inverted][1, 2]
@@ -176,6 +185,35 @@ def test_the_barrier_has_two_humps(kapitza, tmp_path):
     assert barrier[first].max() == pytest.approx(0.009946, rel=1e-3)
     assert x[second][np.argmax(barrier[second])] == pytest.approx(0.425, abs=0.006)
     assert barrier[second].max() == pytest.approx(0.00506, rel=1e-2)
+
+
+def test_the_barrier_near_a_pitchfork_is_a_square(kapitza, tmp_path):
+    """The inverted state is born in a pitchfork: the root of its barrier is a straight line that ends at the drive
+    where the state loses its stability."""
+    result, inverted, _ = over(kapitza, tmp_path, 0.132, along(0.1305, 0.1335, 5), max_period=1)
+    escape = result.group("escape")
+    x, barrier = escape["x"].values, escape["line_barrier"].values[inverted]
+    birth = [root for root in np.roots(np.polyfit(x, np.sqrt(barrier), 2)) if root < x[0]][0]
+    power = np.polyfit(np.log(x - birth), np.log(barrier), 1)[0]
+    assert power == pytest.approx(2, abs=0.05)
+    for side, stable in ((-5e-5, False), (5e-5, True)):
+        cycle = Pendulum(quality_factor=5, drive_frequency=11, drive_amplitude=birth + side).cycle("180 deg", 0)
+        assert (np.abs(cycle["multiplier_re"].values + 1j * cycle["multiplier_im"].values).max() < 1) == stable
+
+
+def test_the_page_s_way_to_make_it_stand():
+    """The example of docs/explanation/ways-out.md runs; its torque in N m is that of the table, beside gravity's."""
+    text = (ROOT / "docs/explanation/ways-out.md").read_text()
+    names = {"kapitza": sys.modules["kapitza"]}
+    exec(next(block for block in re.findall(r"```python\n(.*?)```", text, re.DOTALL) if "20 cm" in block), names)
+    ways, route = names["ways"], names["route"]
+    row, gravity = ways.table.loc[route], 0.1 * 0.2 * 9.80665
+    assert np.abs(names["curve"]).max() == pytest.approx(row["largest_torque_Nm"], rel=1e-9)
+    k = names["pendulum"].parameters["k"]
+    assert row["largest_torque_Nm"] / gravity == pytest.approx(row["largest_torque"] / k)
+    assert row["barrier_J"] > 0 and "barrier_J" in ways.barriers
+    assert ways.chains.loc["down", "inverted"] <= ways.matrix.loc["down", "inverted"] == row["barrier"]
+    assert ways.plot("down", into="inverted", no_title=True).axes[1].get_ylabel() == "torque (N m)"
 
 
 def test_incomplete_saddles_and_motions_that_are_no_cycles_are_refused(kapitza, tmp_path):

@@ -149,3 +149,29 @@ TEST(noise_gives_its_temperature) {
   kz_walker_free(walker);
   assert_true(fabs(sum / PERIODS / temperature - 1) < 0.008);
 }
+
+/* A constant torque tilts the potential: without a drive the barrier is its height, which falls with the power 3/2
+ * near the fold where rest and saddle meet. */
+TEST(the_barrier_of_a_tilted_pendulum_is_its_potential) {
+  const double k = 0.3, angles[] = {1.0, PI / 2 - 0.2, PI / 2 - 0.1};
+  double action[3], fold[3];
+  for (int i = 0; i < 3; i++) {
+    const kz_pendulum pendulum = {.k = k, .beta = 0.1, .torque = k * sin(angles[i]), .unmirrored = 1};
+    kz_hamilton *flow = flow_of(&pendulum, 96);
+    kz_path_end from, to;
+    kz_path path;
+    assert_true(kz_path_end_find(flow, 1, true, angles[i], 0, &from));
+    assert_true(kz_path_end_find(flow, 1, false, PI - angles[i], 0, &to));
+    assert_true(paths_find(flow, &pendulum, &from, &to, 60, 24, &path));
+    const int64_t more[2] = {40, 40};
+    kz_path_lengthen(flow, &from, &to, more, &path);
+    assert_true(kz_path_polish(flow, &from, &to, &path));
+    action[i] = path.action;
+    fold[i] = 1 - sin(angles[i]);
+    const double height = 2 * k * cos(angles[i]) - pendulum.torque * (PI - 2 * angles[i]);
+    assert_true(fabs(action[i] / height - 1) < 1e-9);
+    free(path.node);
+    kz_hamilton_free(flow);
+  }
+  assert_true(fabs(log(action[2] / action[1]) / log(fold[2] / fold[1]) - 1.5) < 0.01);
+}
