@@ -1,19 +1,23 @@
 """libkapitza.so, as others link it: its names, its header, the examples of docs/howto/library.md against the installed
 one."""
 
+import ctypes
 import re
 import shutil
 import subprocess
 
+import kapitza
 import pytest
 from conftest import PROGRAM, ROOT
+from kapitza.library import load
 
 LIBRARY = PROGRAM.parent / "libkapitza.so"
 PAGE = (ROOT / "docs" / "howto" / "library.md").read_text()
+OTHERS = (ROOT / "docs" / "howto" / "other-languages.md").read_text()
 
 
-def example(language):
-    return re.search(rf"```{language}\n(.*?)```", PAGE, re.DOTALL)[1]
+def example(language, page=PAGE):
+    return re.search(rf"```{language}\n(.*?)```", page, re.DOTALL)[1]
 
 
 def done(*words, **more):
@@ -77,7 +81,6 @@ def test_the_header_is_c_plus_plus_too(tmp_path):
 
 def test_a_run_in_this_process_writes_the_datasets_of_the_program(tmp_path):
     from conftest import datasets
-    from kapitza.library import load
     scene = (ROOT / "scenes" / "small.yaml").read_text()
     library = load()
     summary = library.ffi.new("char **")
@@ -89,3 +92,24 @@ def test_a_run_in_this_process_writes_the_datasets_of_the_program(tmp_path):
     assert own.keys() == wanted.keys()
     assert all(own[name] == wanted[name] for name in wanted)
     assert not list(tmp_path.glob("*.part"))
+
+
+def test_the_c_between_r_and_the_library_works(tmp_path):
+    """Its pointers are those that R's .C hands over."""
+    (tmp_path / "ends.c").write_text(example("c", OTHERS))
+    done("cc", "-shared", "-fPIC", "-Wall", "-Werror", "ends.c", f"-I{ROOT / 'include'}", LIBRARY,
+         f"-Wl,-rpath,{LIBRARY.parent}", "-o", "ends.so", cwd=tmp_path)
+    scene = (ctypes.c_char_p * 1)(re.search(r'scene <- "(.*)"', OTHERS)[1].encode())
+    label, status = (ctypes.c_int * 2)(-9, -9), ctypes.c_int(-9)
+    ctypes.CDLL(str(tmp_path / "ends.so")).ends(scene, ctypes.byref(ctypes.c_int(2)), (ctypes.c_double * 2)(3, 3.1),
+                                                (ctypes.c_double * 2)(0, 0.2), label, ctypes.byref(status))
+    names = kapitza.Pendulum(Q=5, Omega=11, epsilon=0.3).attractors()["name"]
+    assert status.value == 0 and [names[id] for id in label] == ["inverted", "inverted"]
+
+
+def test_julia_steps_from_cycle_to_cycle_as_c_does():
+    """No Julia runs here: its calls are those that the header declares, and a cycle has the bytes that it counts."""
+    ffi = load().ffi
+    assert f"size = {ffi.sizeof('kapitza_cycle')} " in OTHERS and ffi.offsetof("kapitza_cycles", "cycle") == 8
+    called = set(re.findall(r"\b(kapitza_\w+)\(", OTHERS)) | set(re.findall(r"'(kapitza_\w+)'", OTHERS))
+    assert called and all(hasattr(load().lib, name) for name in called)
