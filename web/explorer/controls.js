@@ -249,7 +249,8 @@ function listenSaving(state, basins) {
   element("copy").onclick = guarded(() => copyText(JSON.stringify(state.window.toRequest())));
   element("link").onclick = guarded(async () => {
     const { once } = await ask("link");
-    await copyText(`${location.origin}${location.pathname}?once=${once}${location.hash}`);
-    element("status").textContent = "An address of this view was copied. One browser can open it, once.";
+    await copyText(`${location.origin}${location.pathname}${once ? `?once=${once}` : ""}${location.hash}`);
+    const limit = once ? " One browser can open it, once." : "";
+    element("status").textContent = `An address of this view was copied.${limit}`;
   });
 }

@@ -12,15 +12,18 @@ import { idOf } from "./track.js";
 import { Window } from "./window.js";
 
 const QUESTION = "Where does the pendulum end?"; // the title of a first look
+const EMBEDDED = /^#embed\b/.test(location.hash); // in another page: the pendulum, its slider, the basins
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
 async function begin() {
+  document.body.toggleAttribute("data-embed", EMBEDDED);
   await signIn();
   const start = await ask("state");
   const scene = { ...NEUTRAL, ...textsOf(start.pendulum) };
   const state = new State({
     ...DEFAULTS,
     title: start.title,
+    name: start.name, // of the scene, where the page has several
     scene,
     pendulum: scene,
     other: null,
@@ -37,7 +40,8 @@ async function begin() {
     ground: null,
     speed: 1,
   });
-  Object.assign(state, remembered(), readAddress(location.hash, { pendulum: scene }));
+  Object.assign(state, start.choices, remembered(), readAddress(location.hash, { pendulum: scene }));
+  if (EMBEDDED) state.level = "look";
   state.home = state.whole.centred(state.middle);
   state.window ??= state.home;
   for (const [kind, colour] of Object.entries(state.kinds)) document.documentElement.style.setProperty(
@@ -56,7 +60,7 @@ async function begin() {
   state.listen((keys) => keys.has("theme") && setTheme(state));
   state.listen((keys) => keys.has("letters") && setLetters());
   dark.addEventListener("change", () => setTheme(state));
-  keepAddress(state);
+  if (!EMBEDDED) keepAddress(state);
   keepMiddle(state);
   const basins = new Basins(state);
   const parts = listenControls(state, basins);

@@ -23,6 +23,7 @@ export const DEFAULTS = {
 export const LEVELS = ["look", "explore", "measure"]; // each shows what the one before does, and more
 
 const SAID = ["level", "map"]; // by every address: what the browser remembers of them may be another page's
+const AMPLITUDES = ["drive_amplitude", "m"]; // what a pendulum may call how far it is shaken
 const PAUSE = 1000; // ms
 const NAMED = 2; // values in a title
 
@@ -117,7 +118,8 @@ function axisFrom(text) {
 /** The part of an address after #. */
 export function addressOf(state) {
   const { theta, velocity } = state.window.toRequest();
-  const parts = new URLSearchParams({ theta: axisText(theta), velocity: axisText(velocity) });
+  const named = state.name ? { scene: state.name } : {};
+  const parts = new URLSearchParams({ ...named, theta: axisText(theta), velocity: axisText(velocity) });
   for (const [name, value] of Object.entries(state.pendulum)) if (value !== state.scene[name]) parts.set(
     `pendulum.${name}`, value);
   if (state.start) parts.set("start", `${state.start.theta}~${state.start.velocity}~${state.start.pane}`);
@@ -129,11 +131,12 @@ export function addressOf(state) {
 
 /** What an address says beside the start: {window, pendulum, other, ...}; what it says wrongly is left out. */
 export function readAddress(hash, start) {
-  const parts = new URLSearchParams(hash.replace(/^#/, ""));
+  const parts = new URLSearchParams(hash.replace(/^#/, "").replaceAll(";", "&"));
   /** @type {any} */ const found = { pendulum: { ...start.pendulum }, other: null };
   for (const [name, value] of parts) {
     const [group, key] = name.split(".");
     if (name in DEFAULTS) found[name] = value;
+    else if (name === "amplitude") found.pendulum[AMPLITUDES.find((own) => own in start.pendulum) ?? "m"] = value;
     else if (group === "pendulum" && key in start.pendulum) found.pendulum[key] = value;
     else if (group === "other" && key in start.pendulum) found.other = { ...(found.other ?? start.pendulum),
       [key]: value };

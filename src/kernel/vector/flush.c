@@ -23,6 +23,15 @@ static uint64_t read_control(void) {
 static void write_control(uint64_t control) {
   __asm__ volatile("msr fpcr, %0" : : "r"(control));
 }
+#elif defined __wasm__
+enum { FLUSH_TO_ZERO, DENORMALS_ARE_ZERO = 0 }; /* it has no control word, and takes subnormals as they are */
+
+static uint64_t read_control(void) {
+  return 0;
+}
+static void write_control(uint64_t control) {
+  (void)control;
+}
 #else
 #error "the control word of this processor is not known"
 #endif

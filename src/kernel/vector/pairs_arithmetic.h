@@ -28,6 +28,14 @@ KZ_INLINE vector multiply_add(vector a, vector b, vector c) {
   return (vector)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
 #elif defined __FMA__
   return (vector)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
+#elif defined __wasm_relaxed_simd__ /* fused, or page_fits (web/page/system.c) refuses the build */
+  return (vector)__builtin_wasm_relaxed_madd_f64x2(a, b, c);
+#elif defined __wasm__ /* by halves of the factors (Dekker): exact if c = -a b, else within 2^-100 before rounding */
+  const vector p = a * b, s = 0x8000001p0 * a, t = 0x8000001p0 * b;
+  const vector a_high = s - (s - a), b_high = t - (t - b), a_low = a - a_high, b_low = b - b_high;
+  const vector low = ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low;
+  const vector sum = p + c, part = sum - p;
+  return sum + (((p - (sum - part)) + (c - part)) + low);
 #else
   for (int i = 0; i < LANES; i++) c[i] = fma(a[i], b[i], c[i]);
   return c;

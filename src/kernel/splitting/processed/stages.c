@@ -10,8 +10,12 @@
 #error "the processed splitting is made for fused operations: -ffp-contract=fast (cmake/Compilers.cmake)"
 #endif
 
-/* Largest number of vectors at once. */
+/* Largest number of vectors at once; wasm keeps no more of them in registers. */
+#ifdef __wasm__
+enum { CHAINS = 4 };
+#else
 enum { CHAINS = 8 };
+#endif
 #define EACH _Pragma("GCC unroll 8") for (int i = 0; i < IN(CHAINS); i++)
 
 typedef float narrow __attribute__((vector_size(VECTOR_BYTES / 2), aligned(sizeof(float)), may_alias));
