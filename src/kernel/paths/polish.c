@@ -6,8 +6,8 @@ enum { MAX_ITERATIONS = 40, MAX_ALONG = 12, MAX_DESCENT = 6 };
 /* Shift of the equations beside their largest diagonal element: the least, that of the first step, the largest, and one
  * that leaves the nearly free shift in time out. */
 static const double LEAST_SHIFT = 1e-15, FIRST_SHIFT = 1e-10, LARGEST_SHIFT = 0.1, FLOOR_SHIFT = 1e-8;
-/* Jumps below CLOSED that shrink no more are due to rounding; larger steps are shortened (rad). */
-static const double CLOSED = 1e-9, LONGEST = 0.5;
+/* Jumps below EXACT, or below CLOSED that shrink no more, are due to rounding; larger steps are shortened (rad). */
+static const double CLOSED = 1e-9, EXACT = 1e-13, LONGEST = 0.5;
 /* Jumps on the floor of the bent valley that a shift in time makes, and steps that may follow it (rad). */
 static const double ON_FLOOR = 1e-2, SHORT = 0.1;
 
@@ -293,7 +293,7 @@ bool kz_path_polish(const kz_hamilton *flow, const kz_path_end *from, const kz_p
   put_on_planes(s.end, path);
   path->mismatch = polish_shoot(flow, path->node, &s);
   for (path->iterations = 0; path->iterations < MAX_ITERATIONS && isfinite(path->mismatch); path->iterations++) {
-    if (path->mismatch < CLOSED && path->mismatch > 0.25 * before) break;
+    if (path->mismatch < CLOSED && (path->mismatch > 0.25 * before || path->mismatch < EXACT)) break;
     before = path->mismatch;
     if (!polish_improve(flow, path->node, &shift, &along, &s)) break;
     path->mismatch = largest_of(&s);

@@ -61,7 +61,8 @@ static bool step_to(const kz_escape_site *site, const double at[2], bool any, kz
   next.at[0] = at[0], next.at[1] = at[1];
   next.pendulum = site->pendulum;
   const bool good = site->of.flow && find_ends(site->of.flow, &next) &&
-                    kz_escape_polish(site->of.flow, &next.from, &next.to, KZ_ESCAPE_NEAR, &next.path) &&
+                    kz_escape_polish(site->of.coarse, &next.from, &next.to, KZ_ESCAPE_NEAR, &next.path) &&
+                    kz_path_polish(site->of.flow, &next.from, &next.to, &next.path) &&
                     (any || is_of_family(member, &next));
   kz_escape_member_free(good ? member : &next);
   if (good) *member = next;
