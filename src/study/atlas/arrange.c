@@ -203,7 +203,7 @@ void kz_atlas_base(kz_atlas *atlas, double x, int32_t *counts) {
   const double place[2] = {x, 0};
   if (!kz_atlas_pendulum(atlas->scene, place, &pendulum)) return;
   const kz_atlas_class rest =
-      kz_atlas_class_with(atlas, kz_atlas_paired(atlas), 1, 0, pendulum.k < 0 ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN);
+      kz_atlas_class_with(kz_atlas_paired(atlas), 1, 0, pendulum.k < 0 ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN);
   counts[kz_atlas_class_number(atlas, &rest)] = 1;
 }
 

@@ -22,7 +22,7 @@ typedef struct {
 static int64_t place_of(const kz_atlas *atlas, const kz_attractor *row, int64_t n) {
   const int32_t turns = kz_atlas_paired(atlas) ? abs(row->winding) : row->winding;
   const kz_atlas_class class =
-      kz_atlas_class_with(atlas, row->symmetric && kz_atlas_paired(atlas), row->period, turns, row->centre);
+      kz_atlas_class_with(row->symmetric && kz_atlas_paired(atlas), row->period, turns, row->centre);
   int64_t place = 0;
   while (place < n && memcmp(atlas->class + place, &class, sizeof class)) place++;
   return place;

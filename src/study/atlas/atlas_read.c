@@ -112,7 +112,7 @@ static kz_status read_classes(kz_atlas *atlas, kz_store *store) {
   KZ_TRY(read_columns(store, CLASS_COLUMNS, name, n, &c));
   for (int64_t i = 0; i < n && i < KZ_ATLAS_MOST_CLASSES; i++) {
     double count;
-    const kz_atlas_class class = kz_atlas_class_with(atlas, c.of[OF_SYMMETRY][i] != 0, (int32_t)c.of[OF_PERIOD][i],
+    const kz_atlas_class class = kz_atlas_class_with(c.of[OF_SYMMETRY][i] != 0, (int32_t)c.of[OF_PERIOD][i],
                                                      (int32_t)c.of[OF_WINDING][i], (int32_t)c.of[OF_CENTRE][i]);
     KZ_TRY(kz_store_number(store, GROUP, "attracting", (int64_t[]){i, cell[0], cell[1]}, &count));
     atlas->at_reference[kz_atlas_class_number(atlas, &class)] = (int32_t)(count == KZ_ATLAS_NOT_KNOWN ? -count : count);

@@ -167,7 +167,7 @@ static kz_status write_raster(const kz_atlas *atlas, const kz_atlas_raster *r, k
   COLUMN(int16_t, "class_period", r->n_classes, atlas->class[i].period);
   COLUMN(int32_t, "class_winding", r->n_classes, kz_atlas_described(atlas, atlas->class + i).winding);
   COLUMN(int8_t, "class_centre", r->n_classes, kz_atlas_class_centre(atlas->class + i));
-  COLUMN(int8_t, "class_symmetric", r->n_classes, atlas->class[i].type != KZ_CLASS_OTHER);
+  COLUMN(int8_t, "class_symmetric", r->n_classes, atlas->class[i].symmetric);
   KZ_SCALE(store, GROUP, "row", n, middle_of(atlas, i, 1));
   KZ_SCALE(store, GROUP, "column", n, middle_of(atlas, i, 0));
   KZ_TRY(write_cells(atlas, "attracting", r->n_classes, n, sizeof *r->attracting, r->attracting, store));

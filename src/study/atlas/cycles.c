@@ -5,15 +5,12 @@
 static const double ONE = 1e-5, AT_REST = 1e-9;
 
 kz_atlas_class kz_atlas_class_of(const kz_cycle_kind *kind) {
-  if (kind->rest) return (kz_atlas_class){KZ_CLASS_REST, 1, kind->rest - 1};
-  return (kz_atlas_class){kind->side > 0 ? KZ_CLASS_OTHER : KZ_CLASS_SYMMETRIC, kz_kind_period(kind), kind->turns};
+  if (kind->rest) return (kz_atlas_class){1, 1, kind->rest - 1};
+  return (kz_atlas_class){kind->side < 0, kz_kind_period(kind), kind->turns};
 }
 
-kz_atlas_class kz_atlas_class_with(const kz_atlas *atlas, bool symmetric, int32_t period, int32_t turns,
-                                   int32_t centre) {
-  if (!symmetric) return (kz_atlas_class){KZ_CLASS_OTHER, period, turns};
-  const int32_t type = period == 1 && atlas->plane.mirrored ? KZ_CLASS_REST : KZ_CLASS_SYMMETRIC;
-  return (kz_atlas_class){type, period, centre == KZ_ABOUT_INVERTED};
+kz_atlas_class kz_atlas_class_with(bool symmetric, int32_t period, int32_t turns, int32_t centre) {
+  return (kz_atlas_class){symmetric, period, symmetric ? centre == KZ_ABOUT_INVERTED : turns};
 }
 
 bool kz_atlas_is_of(const kz_cycle_kind *kind, const kz_atlas_class *class) {
@@ -22,7 +19,7 @@ bool kz_atlas_is_of(const kz_cycle_kind *kind, const kz_atlas_class *class) {
 }
 
 int32_t kz_atlas_images(const kz_atlas *atlas, const kz_atlas_class *class) {
-  return class->type == KZ_CLASS_OTHER && kz_atlas_paired(atlas) ? 2 : 1;
+  return !class->symmetric && kz_atlas_paired(atlas) ? 2 : 1;
 }
 
 int32_t kz_atlas_class_number(kz_atlas *atlas, const kz_atlas_class *class) {
@@ -34,12 +31,12 @@ int32_t kz_atlas_class_number(kz_atlas *atlas, const kz_atlas_class *class) {
 }
 
 int32_t kz_atlas_class_centre(const kz_atlas_class *class) {
-  if (class->type != KZ_CLASS_OTHER) return class->turns ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN;
+  if (class->symmetric) return class->turns ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN;
   return class->turns ? KZ_ROTATING : KZ_ABOUT_NEITHER;
 }
 
 void kz_atlas_class_name(const kz_atlas *atlas, const kz_atlas_class *class, char *text) {
-  if (class->type != KZ_CLASS_OTHER)
+  if (class->symmetric)
     kz_orbit_name(class->period, 0, class->turns ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN, text);
   else if (class->turns == 0)
     snprintf(text, KZ_NAME_LENGTH, kz_atlas_paired(atlas) ? "asymmetric %d-nodding" : "%d-nodding", (int)class->period);
@@ -50,9 +47,9 @@ void kz_atlas_class_name(const kz_atlas *atlas, const kz_atlas_class *class, cha
 
 kz_motion_kind kz_atlas_described(const kz_atlas *atlas, const kz_atlas_class *class) {
   kz_motion_kind kind = {.period = class->period,
-                         .winding = class->type == KZ_CLASS_OTHER ? class->turns : 0,
+                         .winding = !class->symmetric ? class->turns : 0,
                          .centre = kz_atlas_class_centre(class),
-                         .symmetric = class->type != KZ_CLASS_OTHER,
+                         .symmetric = class->symmetric,
                          .images = kz_atlas_images(atlas, class)};
   kz_atlas_class_name(atlas, class, kind.name);
   return kind;

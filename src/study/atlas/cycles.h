@@ -13,8 +13,7 @@ void kz_atlas_put(kz_atlas_seeds *seeds, const kz_cycle *seed); /* as it is */
 void kz_atlas_seeds_free(kz_atlas_seeds *seeds);
 /* The class of its attractors, its description in files and catalogues, equality with a given class, its name. */
 kz_atlas_class kz_atlas_class_of(const kz_cycle_kind *kind);
-kz_atlas_class kz_atlas_class_with(const kz_atlas *atlas, bool symmetric, int32_t period, int32_t turns,
-                                   int32_t centre);
+kz_atlas_class kz_atlas_class_with(bool symmetric, int32_t period, int32_t turns, int32_t centre);
 bool kz_atlas_is_of(const kz_cycle_kind *kind, const kz_atlas_class *class);
 int32_t kz_atlas_class_centre(const kz_atlas_class *class);
 void kz_atlas_class_name(const kz_atlas *atlas, const kz_atlas_class *class, char *text);

@@ -121,8 +121,9 @@ static int32_t set_states(kz_atlas *atlas, const double place[2], const kz_atlas
   KZ_AUTOFREE kz_cycle *cycle = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *cycle);
   KZ_AUTOFREE int64_t *curve = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *curve);
   hunt h = {.atlas = atlas, .place = place, .class = *class, .wanted = wanted, .cycle = cycle, .curve = curve};
-  if (class->type == KZ_CLASS_REST) hunt_rest(&h);
-  for (int axis = 1; axis >= 0 && h.found < wanted && class->type != KZ_CLASS_REST; axis--) hunt_along(&h, axis);
+  const bool rest = class->symmetric && class->period == 1 && atlas->plane.mirrored;
+  if (rest) hunt_rest(&h);
+  for (int axis = 1; axis >= 0 && h.found < wanted && !rest; axis--) hunt_along(&h, axis);
   if (h.found < wanted && known) hunt_among(&h, known);
   if (h.found < wanted && !known) hunt_by_starts(&h);
   for (int32_t i = 0; i < h.found && i < wanted && motion; i++) set_state(&h, i, motion + i);

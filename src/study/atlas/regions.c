@@ -5,7 +5,7 @@
 
 static int compare_classes(const void *first, const void *second) {
   const kz_atlas_class *a = first, *b = second;
-  if (a->type != b->type) return a->type - b->type;
+  if (a->symmetric != b->symmetric) return b->symmetric - a->symmetric;
   return a->period != b->period ? a->period - b->period : a->turns - b->turns;
 }
 

@@ -21,9 +21,8 @@ typedef struct {
 } kz_atlas_seeds;
 
 /* Attractors of one kind; mirror images count as one. */
-enum { KZ_CLASS_REST, KZ_CLASS_SYMMETRIC, KZ_CLASS_OTHER };
 typedef struct {
-  int32_t type, period, turns; /* turns: rest and symmetric cycles: 0 about down, 1 about inverted */
+  int32_t symmetric, period, turns; /* symmetric 1: cycles and rest about down (turns 0) or inverted (1) */
 } kz_atlas_class;
 
 /* How a curve ends that was joined to a degenerate point. */

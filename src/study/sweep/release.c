@@ -7,7 +7,7 @@ enum {
   HALF_DEGREES = 359, /* releases of the whole set: 0.5, 1.0, ... 179.5 degrees */
   FINER = 4,          /* how much denser an earlier gap is looked for */
   DEPTH = 3,          /* times, at most */
-  BRACKET = 63        /* angles between the ends of a bracket when an edge is located */
+  BRACKET = 63        /* angles between the ends of a bracket when an edge is located, at most */
 };
 /* Transients have shrunk to exp(-this) after the periods that a release is followed. */
 static const double SHRUNK = 6;
@@ -58,17 +58,17 @@ static double half_degrees(int64_t i) {
 /* The edge between a release that stays (inside) and one that fails (outside). Of several edges the one next to inside,
  * or with `outermost` the one next to outside. */
 static double release_locate(const kz_pendulum *pendulum, const kz_numerics *numerics, double inside, double outside,
-                             bool outermost) {
+                             int points, bool outermost) {
   double angle[BRACKET];
   uint8_t stays[BRACKET];
   while (outside - inside > LOCATED) {
-    const double step = (outside - inside) / (BRACKET + 1), from = inside;
-    int first = outermost ? BRACKET : 0; /* index of the failing one */
-    for (int i = 0; i < BRACKET; i++) angle[i] = from + step * (i + 1);
-    kz_sweep_releases(pendulum, numerics, BRACKET, angle, stays);
-    while (!outermost && first < BRACKET && stays[first]) first++;
+    const double step = (outside - inside) / (points + 1), from = inside;
+    int first = outermost ? points : 0; /* index of the failing one */
+    for (int i = 0; i < points; i++) angle[i] = from + step * (i + 1);
+    kz_sweep_releases(pendulum, numerics, points, angle, stays);
+    while (!outermost && first < points && stays[first]) first++;
     while (outermost && first > 0 && !stays[first - 1]) first--;
-    if (first < BRACKET) outside = angle[first];
+    if (first < points) outside = angle[first];
     if (first > 0) inside = angle[first - 1];
   }
   return inside;
@@ -78,14 +78,8 @@ static double release_locate(const kz_pendulum *pendulum, const kz_numerics *num
 static double release_scan(const kz_pendulum *pendulum, const kz_numerics *numerics, const uint8_t *stays) {
   int64_t degree = 1;
   while (2 * degree - 1 < HALF_DEGREES && stays[2 * degree - 1]) degree++;
-  double inside = (double)(degree - 1) * (M_PI / 180), outside = (double)degree * (M_PI / 180);
-  while (outside - inside > LOCATED) {
-    const double middle = (inside + outside) / 2;
-    uint8_t here;
-    kz_sweep_releases(pendulum, numerics, 1, &middle, &here);
-    *(here ? &inside : &outside) = middle;
-  }
-  return inside;
+  const double inside = (double)(degree - 1) * (M_PI / 180), outside = (double)degree * (M_PI / 180);
+  return release_locate(pendulum, numerics, inside, outside, 1, false);
 }
 
 /* The first failure among multiples of `step` below `outside`, or `outside` itself. */
@@ -110,7 +104,7 @@ static double find_first(const kz_pendulum *pendulum, const kz_numerics *numeric
     step /= FINER;
     outside = first_failure(pendulum, numerics, step, outside);
   }
-  return release_locate(pendulum, numerics, outside - step, outside, false);
+  return release_locate(pendulum, numerics, outside - step, outside, BRACKET, false);
 }
 
 static kz_status release_tile(void *context, int64_t tile, void *record) {
@@ -127,9 +121,9 @@ static kz_status release_tile(void *context, int64_t tile, void *record) {
   while (last >= 0 && !out->stays[last]) last--;
   out->first = find_first(&pendulum, &scene->numerics, half_degrees(first));
   out->scan = release_scan(&pendulum, &scene->numerics, out->stays);
-  out->largest = last < 0
-                     ? out->first
-                     : release_locate(&pendulum, &scene->numerics, half_degrees(last), half_degrees(last + 1), true);
+  out->largest =
+      last < 0 ? out->first
+               : release_locate(&pendulum, &scene->numerics, half_degrees(last), half_degrees(last + 1), BRACKET, true);
   return KZ_OK;
 }
 
