@@ -36,7 +36,7 @@ async function begin({ module, layout: own, scene: given }) {
   const imports = { page, env: {} };
   for (const { module: from, name } of WebAssembly.Module.imports(module))
     imports[from][name] ??= () => {
-      throw new Error(`this needs the program (${name}): kapitza view SCENE`);
+      throw new Error("this needs the program: kapitza view SCENE");
     };
   engine = new WebAssembly.Instance(module, imports).exports;
   if (!engine.page_fits()) throw new Error("this processor does not fuse");

