@@ -48,7 +48,7 @@ KZ_INLINE pair upper_pair(triple x) {
   return (pair){x.part[0], x.part[1]};
 }
 
-/* sign / n for an integer n whose inverse has the first two parts i. */
+/* Returns sign / n for an integer n whose inverse has the first two parts i. */
 KZ_INLINE triple inverse_triple_with(double sign, double n, const double i[2]) {
   const double left = __builtin_fma(-i[1], n, __builtin_fma(-i[0], n, 1.0));
   return (triple){{broadcast_value(sign * i[0]), broadcast_value(sign * i[1]), broadcast_value(sign * (left / n))}};

@@ -45,7 +45,7 @@ contains
   !> Makes the tables of one period, or of a stretch of it.
   subroutine make_period(pendulum, numerics, fused, period, stretch)
     type(pendulum_t), intent(in) :: pendulum !< Pendulum
-    type(numerics_t), intent(in) :: numerics !< scheme, steps a period
+    type(numerics_t), intent(in) :: numerics !< scheme and steps a period of the table
     !> True: the last entry of a step is merged with the next step's first: faster, but no samples within the period
     logical, intent(in) :: fused
     type(period_t), intent(out) :: period !< Drifts and kicks of one period

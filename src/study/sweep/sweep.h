@@ -66,7 +66,8 @@ kz_attractor kz_branch_point_image(const kz_pendulum *pendulum, kz_attractor poi
 bool kz_branch_alike(const kz_attractor *a, const kz_attractor *b);
 /* The distance between two motions that never close, by their means. */
 double kz_branch_points_apart(const kz_attractor *a, const kz_attractor *b);
-/* By centre, period (0 last), |winding|/period, + first: below 0 where p comes first, 0 where these are equal. */
+/* Compares by centre, period (0 last), |winding|/period, + first: below 0 where p comes first, 0 where these are equal.
+ */
 int kz_branch_points_order(const kz_attractor *p, const kz_attractor *q);
 
 /* ---- catalogues: what attracts at each value ---- */
@@ -117,7 +118,7 @@ typedef struct {
   int64_t n_nodes, nodes_capacity;
   kz_sweep_node *nodes;
   int64_t n_branches, *first_node; /* [n_branches] in the order of the file */
-  kz_fine_maps *maps;              /* maps of the values */
+  kz_fine_maps *maps;              /* fine maps of the values */
 } kz_sweep_branches;
 
 /* Joins the catalogues by continuation; equal on all ranks; kz_sweep_branches_free frees it. Collective. */

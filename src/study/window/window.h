@@ -139,7 +139,7 @@ typedef struct {
 void kz_window_curve_make(const kz_window_starts *starts, kz_window_curve *curve);
 void kz_window_curve_free(kz_window_curve *curve);
 
-/* The sample nearest to a cell. */
+/* Returns the sample nearest to a cell. */
 int64_t kz_window_curve_sample(const kz_window_curve *curve, int64_t cell);
 /* State of a sample at hand-over: state [2], half-turns and rad per drive radian, after *periods drive periods. */
 void kz_window_curve_state(const kz_window_curve *curve, int64_t sample, double state[2], int64_t *periods);

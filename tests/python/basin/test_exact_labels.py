@@ -48,7 +48,7 @@ def test_labels_hang_on_no_numerics(kapitza, exact, tmp_path):
     assert coarse["doubtful_share"] > fine["doubtful_share"] > 0.05
     assert {"cells 1", "pairs 16", "quad 1"} <= {line[:8].strip() for line in said.splitlines()}
     assert np.count_nonzero(fine["evidence"] == IN_QUAD) > 0
-    # Double precision with more steps gains nothing on fine ones
+    # Double precision with more steps gains nothing where steps are fine already
     assert np.count_nonzero(coarse["evidence"] == IN_FINE) > 0
     assert np.count_nonzero(fine["evidence"] == IN_FINE) == 0
 

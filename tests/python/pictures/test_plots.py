@@ -159,10 +159,10 @@ def damage(path, how):
             elif how == "parameter of text":
                 file["pendulum"].attrs["k"] = "half"
             else:
-                craft(file, how)
+                write_crafted_file(file, how)
 
 
-def craft(file, how):
+def write_crafted_file(file, how):
     """What no run writes: each of these once ended in a traceback, a wrong picture or no end at all."""
     labels, theta = file["basin/attractor"], file["basin/theta"]
     if how == "unknown label":

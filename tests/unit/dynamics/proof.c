@@ -145,7 +145,7 @@ TEST(cycles_are_confined) {
   assert_true(half_theta < 1e-11 && half_velocity < 1e-11);
   cycle.velocity = wrong;
   assert_true(kz_proof_confine(proof, &cycle, &half_theta, &half_velocity, half_multiplier));
-  assert_true(half_velocity > 1e-9); /* it must reach the cycle */
+  assert_true(half_velocity > 1e-9); /* the half-width must reach the cycle */
   kz_proof_free(proof);
   const kz_pendulum other = {pendulum.k, pendulum.beta, pendulum.m + 1e-3};
   assert_int_equal(kz_proof_create(&other, COLUMNS, ROWS, TOP, TOP, &proof), KZ_OK);
