@@ -160,7 +160,7 @@ class Views:
 
     def answers(self, name, request):
         """Those of the view of that name. An engine that ends, or does not end a frame, is replaced, which the next
-        answer tells by `restarted`; a request at which two end is refused."""
+        answer tells by `restarted`; a request at which two end is answered by an error."""
         view = self.view(name)
         try:
             yield from view.answers(request)
@@ -175,7 +175,7 @@ class Views:
                 yield header | told, payload
                 told = {}
         except (Unresponsive, Ended) as end:
-            raise Refused(str(end) or "the engine has ended") from end
+            yield {"answer": "error", "final": True, "bytes": 0, "status": 1, "message": str(end) or "the engine has ended"}, b""
 
     def view(self, name):
         """The view of that name; begun where there is none."""

@@ -106,7 +106,8 @@ def test_a_newer_frame_ends_the_one_before_and_a_sudden_end_is_said(striped):
     assert next(slow)[0]["answer"] == "catalogue"  # it is at work
     assert striped.ask(FRAME | {"pendulum": {"m": 1}}, "slow")[-1][0]["answer"] == "frame"
     assert list(slow)[-1][0]["answer"] == "ended"
-    assert striped.request("ask?view=slow", FRAME | {"pendulum": {"m": 9}}) == (400, {"error": "the engine has ended"})
+    ended = striped.ask(FRAME | {"pendulum": {"m": 9}}, "slow")[-1][0]
+    assert (ended["answer"], ended["message"]) == ("error", "the engine has ended")
     assert striped.ask(FRAME | {"pendulum": {"m": 1}}, "slow")[-1][0]["answer"] == "frame"
     assert striped.ask(FRAME | {"pendulum": {"m": 8}}, "slow")[-1][0]["message"] == "pendulum.m: must not be 8"
 
