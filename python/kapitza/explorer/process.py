@@ -175,7 +175,8 @@ class Views:
                 yield header | told, payload
                 told = {}
         except (Unresponsive, Ended) as end:
-            yield {"answer": "error", "final": True, "bytes": 0, "status": 1, "message": str(end) or "the engine has ended"}, b""
+            yield {"answer": "error", "final": True, "bytes": 0, "status": 1, "message": str(end)
+                   or "the engine has ended"}, b""
 
     def view(self, name):
         """The view of that name; begun where there is none."""
