@@ -39,6 +39,7 @@ _ENDS: _Row = ("", "plane", [])
 _POTENTIAL: _Row = ("", "potential", [])
 _ESCAPE: _Row = ("", "escape", ["--attractor", "inverted"])
 _BARRIER: _Row = ("", "escape", ["--view", "barrier"])
+_COUNTED: _Row = ("", "escape", ["--view", "barrier", "--points", "scenes/escape-line.csv"])
 _TRADE: _Row = ("", "tradeoff", [])
 _PROVED: _Row = ("", "basin", ["--quantity", "evidence"])
 
@@ -93,7 +94,7 @@ _SCENES = {
     "chart-blackburn": [_ENDS],
     "chart-butikov": [_ENDS],
     "escape-fig12": [_ESCAPE],
-    "escape-line": [_BARRIER],
+    "escape-line": [_COUNTED],
     "escape-plane": [_BARRIER],
     "formula-errors": [_ERRORS],
     "josephson": [_SWEEP],

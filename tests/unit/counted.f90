@@ -7,7 +7,7 @@ module kz_test_counted
   use kz_model_pendulum, only: pendulum_t
   use kz_vector_step_table, only: numerics_t
   use kz_cycles_cycles, only: attractor_t
-  use kz_grown_ellipses, only: ellipse_square
+  use kz_computed_ellipses, only: ellipse_square
   use kz_maps_states, only: angle_difference
   use kz_attractors_cycle_search, only: search_t, find_cycle
   implicit none

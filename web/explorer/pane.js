@@ -4,7 +4,7 @@
 import { drawOverBasins } from "./above.js";
 import { Engine } from "./engine.js";
 import { decoded, inColoursOf, MOST_MOVING, paletteOf, requestOf, sharesOf } from "./frames.js";
-import { listedAt } from "./ground.js";
+import { listedAt } from "./map_plane.js";
 import { raise, shadingOf } from "./heights.js";
 import { Inset } from "./inset.js";
 import { frameOf, painterOn } from "./painter.js";

@@ -1,7 +1,7 @@
 // A slider and a typed value for every number of the pendulum's mapping, on a track that shows what the pendulum does.
 
 import { formsOf, isNeutral, isOfDrive } from "./drive.js";
-import { usualKeys } from "./ground.js";
+import { usualKeys } from "./map_plane.js";
 import { drawTrack, stretchesOf } from "./track.js";
 import { keyWords, numberOf, placeOf, valueAt, withUnit } from "./values.js";
 

@@ -24,7 +24,7 @@ PATH, SADDLE, TORQUE = style.INK, style.KINDS["rotation -"], style.KINDS["rotati
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--view", choices=("path", "barrier"), default="path",
+    parser.add_argument("--view", choices=("path", "barrier"),
                         help="one path, or the barrier over the parameters x and y of the file")
     parser.add_argument("--points", metavar="CSV",
                         help="counted slopes on a line of barriers, with the columns x, slope and error")
@@ -129,12 +129,14 @@ def draw_line(axes: Axes, result: Result, attractor: str | None = None, *, point
     return axes
 
 
-def draw_barriers(axes: Axes, result: Result, attractor: str | None = None) -> Axes:
-    """The barrier over the plane of two parameters; white where the motion has none."""
+def draw_barriers(axes: Axes, result: Result, attractor: str | None = None, *, colours: str = "viridis",
+                  legend: bool = True) -> Axes:
+    """The barrier over the plane of two parameters; white where the motion has none. Colours: a map of matplotlib."""
     escape, barrier = _over_parameters(result, attractor, "plane_barrier")
-    mesh = axes.pcolormesh(escape["x"].values, escape["y"].values, barrier, cmap="viridis", shading="nearest",
+    mesh = axes.pcolormesh(escape["x"].values, escape["y"].values, barrier, cmap=colours, shading="nearest",
                            rasterized=True)
-    axes.figure.colorbar(mesh, ax=axes, label="barrier R (I ω²)")
+    if legend:
+        axes.figure.colorbar(mesh, ax=axes, label="barrier R (I ω²)")
     return label_keys(axes, escape)
 
 

@@ -8,7 +8,7 @@ module kz_api_attractors
   use kz_attractors_running, only: find_running
   use kz_cycles_cycles, only: attractor_t, enter_points, RUNNING
   use kz_cycles_described, only: attractor_row_t
-  use kz_grown_bands, only: has_band
+  use kz_computed_bands, only: has_band
   use kz_vector_map, only: PI
   implicit none
   private

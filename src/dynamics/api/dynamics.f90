@@ -3,9 +3,9 @@ module kz_api_dynamics
   use, intrinsic :: iso_c_binding, only: c_int64_t, c_ptr, c_f_pointer, c_loc, c_null_ptr
   use kz_attractors_cycle_search, only: search_t
   use kz_cycles_cycles, only: attractor_t
-  use kz_grown_ellipses, only: rings_t
-  use kz_grown_cell_images, only: images_t
-  use kz_grown_grid, only: regions_t
+  use kz_computed_ellipses, only: rings_t
+  use kz_computed_cell_images, only: images_t
+  use kz_computed_grid, only: regions_t
   use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_vector_locks, only: create_lock, free_lock, take_lock, leave_lock
   use kz_labels_levels, only: levels_t

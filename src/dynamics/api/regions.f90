@@ -2,9 +2,9 @@
 module kz_api_regions
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr
   use kz_api_dynamics, only: dynamics_t, of_handle
-  use kz_grown_cell_images, only: PERIODS, make_images
-  use kz_grown_grid, only: make_regions, draw_attractors
-  use kz_grown_growth, only: grow_regions
+  use kz_computed_cell_images, only: PERIODS, make_images
+  use kz_computed_grid, only: make_regions, draw_attractors
+  use kz_computed_growth, only: grow_regions
   use kz_model_pendulum, only: is_mirrored
   implicit none
   private

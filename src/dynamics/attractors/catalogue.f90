@@ -4,8 +4,8 @@ module kz_attractors_catalogue
   use, intrinsic :: iso_fortran_env, only: int64
   use kz_vector_map, only: PI
   use kz_cycles_cycles, only: numbers_t, attractor_t, RUNNING
-  use kz_grown_curves, only: NODES
-  use kz_grown_grid, only: COVER
+  use kz_computed_curves, only: NODES
+  use kz_computed_grid, only: COVER
   use kz_maps_states, only: rounded
   implicit none
   private

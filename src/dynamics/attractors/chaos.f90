@@ -5,9 +5,9 @@ module kz_attractors_chaos
   use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_cycles_cycles, only: attractor_t, half_period_images, RUNNING
   use kz_cycles_features, only: find_features
-  use kz_grown_bands, only: find_band, has_band, mirrored_band, states_in_band
-  use kz_grown_curves, only: curve_t
-  use kz_grown_grid, only: regions_t, find_regions, cover_cell, COVER
+  use kz_computed_bands, only: find_band, has_band, mirrored_band, states_in_band
+  use kz_computed_curves, only: curve_t
+  use kz_computed_grid, only: regions_t, find_regions, cover_cell, COVER
   use kz_attractors_cycle_search, only: search_t, append_with_image
   use kz_maps_states, only: states_to_map, states_to_physical
   use kz_model_pendulum, only: pendulum_t, pairing_symmetry, MIRROR

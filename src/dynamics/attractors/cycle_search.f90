@@ -6,10 +6,10 @@ module kz_attractors_cycle_search
   use kz_model_pendulum, only: pendulum_t, is_driven, pairing_symmetry, HALF_PERIOD
   use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, image_of, &
                               listed_from_lowest, SLOW
-  use kz_grown_ellipses, only: rings_t, find_ellipses
+  use kz_computed_ellipses, only: rings_t, find_ellipses
   use kz_cycles_newton, only: newton, n_periods
   use kz_cycles_features, only: find_features
-  use kz_grown_grid, only: ellipse_at
+  use kz_computed_grid, only: ellipse_at
   use kz_maps_matrices, only: eigenvalues, IDENTITY
   use kz_maps_states, only: separation, same_state
   implicit none

@@ -13,9 +13,9 @@ module kz_attractors_running
   use kz_attractors_cycle_search, only: search_t
   use kz_cycles_cycles, only: attractor_t, RUNNING
   use kz_cycles_features, only: ROTATING
-  use kz_grown_bands, only: find_band, has_band
-  use kz_grown_curves, only: curve_t, is_locked, mean_turns, node, resample, window_weight, NODES
-  use kz_grown_grid, only: regions_t, find_regions, cover_cell, COVER
+  use kz_computed_bands, only: find_band, has_band
+  use kz_computed_curves, only: curve_t, is_locked, mean_turns, node, resample, window_weight, NODES
+  use kz_computed_grid, only: regions_t, find_regions, cover_cell, COVER
   use kz_maps_states, only: states_to_physical
   use kz_model_pendulum, only: is_driven
   use kz_vector_map, only: flow_t, WIDTH, PI

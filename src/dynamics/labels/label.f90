@@ -4,7 +4,7 @@ module kz_labels_label
   use kz_vector_map, only: map_t, WIDTH, CAPACITY
   use kz_maps_lanes, only: queued_lanes_t, list_flagged
   use kz_cycles_cycles, only: attractor_t
-  use kz_grown_grid, only: regions_t, find_regions, chaos_region
+  use kz_computed_grid, only: regions_t, find_regions, chaos_region
   implicit none
   private
   public :: starts_t

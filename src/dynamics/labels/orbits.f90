@@ -3,7 +3,7 @@
 module kz_labels_orbits
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t, c_int16_t, c_int8_t, c_bool
   use kz_cycles_cycles, only: attractor_t, RUNNING
-  use kz_grown_grid, only: regions_t, find_regions, chaos_region, cell_holds
+  use kz_computed_grid, only: regions_t, find_regions, chaos_region, cell_holds
   use kz_labels_nonlinear, only: measure_nonlinear, SAFETY
   use kz_maps_lanes, only: queued_lanes_t, list_flagged
   use kz_labels_carrier, only: carrier_t, orbit_t

@@ -3,7 +3,7 @@ module kz_labels_turns
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_cycles_cycles, only: attractor_t
   use kz_cycles_features, only: SAMPLES, DOWN, INVERTED
-  use kz_grown_ellipses, only: ellipse_square
+  use kz_computed_ellipses, only: ellipse_square
   use kz_labels_orbits, only: decision_t
   use kz_maps_lanes, only: lanes_t
   use kz_vector_map, only: flow_t, WIDTH, PI

@@ -3,7 +3,7 @@ module kz_live_carried
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr, c_loc
   use kz_api_dynamics, only: dynamics_t, of_handle, make_dynamics, borrow_flow, return_flow
   use kz_attractors_chaos, only: carry_chaos
-  use kz_grown_grid, only: draw_attractors
+  use kz_computed_grid, only: draw_attractors
   use kz_kernel_flows, only: make_flow, make_processed_flow, fine_numerics
   use kz_live_moving, only: aged_regions, learn_regions
   use kz_live_series_interpolation, only: interpolate_series

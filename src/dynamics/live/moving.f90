@@ -5,8 +5,8 @@
 module kz_live_moving
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_cycles_cycles, only: attractor_t
-  use kz_grown_grid, only: regions_t, make_regions, chaos_region, find_regions, note_closed
-  use kz_grown_places, only: fold_cell, number_cells
+  use kz_computed_grid, only: regions_t, make_regions, chaos_region, find_regions, note_closed
+  use kz_computed_places, only: fold_cell, number_cells
   use kz_vector_map, only: flow_t, WIDTH
   use kz_maps_lanes, only: lanes_t
   implicit none

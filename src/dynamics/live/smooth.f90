@@ -2,7 +2,7 @@
 module kz_live_smooth
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
   use kz_cycles_cycles, only: attractor_t
-  use kz_grown_ellipses, only: ellipse_square
+  use kz_computed_ellipses, only: ellipse_square
   use kz_vector_map, only: flow_t, WIDTH
   implicit none
   private

@@ -83,7 +83,7 @@ bool kz_atlas_grown(const kz_atlas *atlas, const kz_cycle *flip, int axis, kz_cy
          kz_cycle_child(&atlas->plane, flip, axis, child, along);
 }
 
-/* The cycle to both sides along an axis, if `itself`, and what branches off, if `grown`. */
+/* The cycle to both sides along an axis, if `itself`, and what branches off, if `computed`. */
 static void explore_flip(const kz_atlas *atlas, const line *l, const kz_cycle *flip, int axis, bool itself, bool grown,
                          kz_atlas_seeds *seeds) {
   double along[2] = {0};

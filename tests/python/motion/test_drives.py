@@ -114,9 +114,9 @@ def test_overtones_are_in_proportion_to_the_drive(kapitza, tmp_path):
 
 
 @pytest.mark.parametrize("keys, rest", [({}, "(for drive_amplitude"),
-                                        ({"waveform": "square"}, "down: stable (for drive_amplitude from 0.1"),
+                                        ({"waveform": "square"}, "Rest inverted: stable (for drive_amplitude from 0.1"),
                                         ({"waveform": "square", "drive_amplitude": 0.05},
-                                         "down: unstable (stable for drive_amplitude"),
+                                         "Rest inverted: unstable (stable for drive_amplitude"),
                                         ({"torque": 0.01}, "Rest: none")])
 def test_rest_is_told_for_the_drive_that_is_there(kapitza, tmp_path, keys, rest):
     (tmp_path / "rig.yaml").write_text(json.dumps({"pendulum": {**PENDULUM, **keys}, "basin": WINDOW}))

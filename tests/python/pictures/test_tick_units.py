@@ -130,7 +130,8 @@ def test_the_explorer_keeps_units_that_are_written():
     """With or without a blank before the unit; what has none is as the program says."""
     start = Start("pendulum: {length: 20cm, frequency: 50 Hz, amplitude: 8 mm, quality_factor: 20, tilt: pi/90}",
                   is_text=True)
-    assert start.with_units() == {"length": "20cm", "frequency": "50 Hz", "amplitude": "8 mm"}
+    assert start.pendulum() == {"length": "20cm", "frequency": "50 Hz", "amplitude": "8 mm", "quality_factor": 20,
+                                "tilt": "pi/90", "gravity": 9.80665}
     assert units.quantity("50Hz", units.HERTZ) == 50
     assert units.written_frequency({"frequency": "3000rpm"}) == pytest.approx(100 * np.pi)
 

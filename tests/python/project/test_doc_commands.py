@@ -6,7 +6,7 @@ import subprocess
 import pytest
 from conftest import ROOT
 
-ELSEWHERE = {"cluster", "other-languages"}  # run by test_cluster.py and test_library.py
+ELSEWHERE = {"cluster", "other-languages", "page"}  # run by test_cluster.py, test_library.py, test_explorer_tab.py
 PAGES = [ROOT / "README.md", ROOT / "docs" / "reference" / "python.md", ROOT / "docs" / "explanation" / "stability.md",
          *sorted((ROOT / "docs").glob("howto/*.md")), *sorted((ROOT / "docs").glob("tutorials/*.md"))]
 LONG = {"first-basin", "map", "my-pendulum", "python", "questions", "shaker", "stability", "track", "why-it-stands"}

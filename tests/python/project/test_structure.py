@@ -123,7 +123,7 @@ def layer_of(path):
 
 
 def folder_of(path):
-    """A file that lies beside folders, such as src/study/values.c, counts by itself, as does a plan, a part of
+    """A file that lies beside folders, such as src/study/sweep_values.c, counts by itself, as does a plan, a part of
     study.h."""
     alone = (path.is_relative_to(HEADERS) or path.name == "plan.h"
              or path.parent.parent == SOURCES and path.parent.name == "study")

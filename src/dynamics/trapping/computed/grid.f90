@@ -1,11 +1,11 @@
 !> Where an orbit is known to be trapped: a grid of cells over the half plane of mid-period angles 0 .. pi (the whole
 !> one where there is no mirror symmetry), each labelled with an attractor, overlapped by trapping ellipses, or open.
-module kz_grown_grid
+module kz_computed_grid
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_cycles_cycles, only: attractor_t
-  use kz_grown_bands, only: has_band, in_band, band_holds, band_meets
-  use kz_grown_ellipses, only: in_ellipse
-  use kz_grown_places, only: grid_t, look_up, side, from_down, wrapped_midperiod_angle, WORD
+  use kz_computed_bands, only: has_band, in_band, band_holds, band_meets
+  use kz_computed_ellipses, only: in_ellipse
+  use kz_computed_places, only: grid_t, look_up, side, from_down, wrapped_midperiod_angle, WORD
   use kz_vector_map, only: WIDTH
   use kz_maps_states, only: angle_difference, midperiod_angle, MIDPERIOD
   implicit none
@@ -306,4 +306,4 @@ contains
     a = 0
   end function ellipse_at
 
-end module kz_grown_grid
+end module kz_computed_grid

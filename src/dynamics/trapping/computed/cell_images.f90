@@ -2,11 +2,11 @@
 !> corners, widened by a bound on what bilinear interpolation misses: an eighth of the second differences, taken twice,
 !> and 2 % of a cell. The corners show what lies between them only as long as the cell has stayed small: where an
 !> earlier image was bent, a later one is not taken.
-module kz_grown_cell_images
+module kz_computed_cell_images
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_maps_states, only: midperiod_angle
-  use kz_grown_grid, only: regions_t
+  use kz_computed_grid, only: regions_t
   implicit none
   private
   public :: images_t, corners_t, make_images, corners_of, extent
@@ -219,4 +219,4 @@ contains
     to = to + corners%slack_x
   end subroutine extent
 
-end module kz_grown_cell_images
+end module kz_computed_cell_images

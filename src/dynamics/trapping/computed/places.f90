@@ -1,6 +1,6 @@
 !> Where states lie in the grid of trapping regions, many at once. (A file of its own: called, not copied into a caller,
 !> its loop goes over vectors.)
-module kz_grown_places
+module kz_computed_places
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_maps_states, only: MIDPERIOD
   implicit none
@@ -128,4 +128,4 @@ contains
     l = grid%n_velocity - 1 - l
   end subroutine fold_cell
 
-end module kz_grown_places
+end module kz_computed_places

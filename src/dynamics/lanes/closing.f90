@@ -1,5 +1,5 @@
 !> Newton's method on the cycles that many motions come near, each of a pendulum of its own.
-module kz_plane_closing
+module kz_lanes_closing
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: WIDTH, PI
   use kz_mixed_mixed_batch, only: mixed_batch_t, track_t
@@ -128,4 +128,4 @@ contains
     end associate
   end subroutine describe
 
-end module kz_plane_closing
+end module kz_lanes_closing

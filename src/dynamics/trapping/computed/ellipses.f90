@@ -3,7 +3,7 @@
 !> The map is a homeomorphism of the plane: where the boundary of a region goes strictly inside, the whole region does.
 !> Every ring of an ellipse is tried from a tiny one on, so that the cycle is the only invariant set in it. The norm is
 !> that of the eigenbasis of the monodromy: for complex multipliers the linear map contracts it by exactly |mu|.
-module kz_grown_ellipses
+module kz_computed_ellipses
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_cycles_cycles, only: attractor_t, is_slow
@@ -301,4 +301,4 @@ contains
     inverse = inverse_of(basis)
   end subroutine eigenbasis
 
-end module kz_grown_ellipses
+end module kz_computed_ellipses

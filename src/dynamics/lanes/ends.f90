@@ -1,13 +1,13 @@
 !> Where motions of many pendulums end: each is followed until it comes back to a point of its own; then Newton's method
 !> finds the cycle. Those that never come back count as chaotic if neighbours separate.
-module kz_plane_ends
+module kz_lanes_ends
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_vector_map, only: WIDTH
   use kz_maps_lanes, only: lanes_t, list_flagged
   use kz_mixed_mixed_batch, only: mixed_batch_t, track_t, make_mixed_batch
   use kz_model_pendulum, only: pendulum_t
-  use kz_plane_closing, only: closed_t, close_motions
-  use kz_plane_recurrence, only: past_t, make_past
+  use kz_lanes_closing, only: closed_t, close_motions
+  use kz_lanes_recurrence, only: past_t, make_past
   implicit none
   private
 
@@ -244,4 +244,4 @@ contains
     end do
   end subroutine growth
 
-end module kz_plane_ends
+end module kz_lanes_ends

@@ -6,11 +6,11 @@
 !> attracting curve on, so that this is the only invariant set between them. Distances are in units of the density with
 !> which motions visit the angles: by that measure the map shrinks the distance from the curve by exp(-2 pi beta)
 !> everywhere.
-module kz_grown_bands
+module kz_computed_bands
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH
   use kz_cycles_cycles, only: attractor_t
-  use kz_grown_curves, only: curve_t, find_curve, carry_curve, resample, node, NODES
+  use kz_computed_curves, only: curve_t, find_curve, carry_curve, resample, node, NODES
   implicit none
   private
   public :: find_band, mirrored_band, states_in_band, has_band, in_band, band_holds, band_meets
@@ -234,4 +234,4 @@ contains
     end do
   end function extreme
 
-end module kz_grown_bands
+end module kz_computed_bands

@@ -3,14 +3,14 @@
 !>
 !> A cell that cannot join yet waits, with each of its images, for one open cell of the image. Cells that have joined
 !> stay, so that the end result does not depend on the order.
-module kz_grown_growth
+module kz_computed_growth
   use, intrinsic :: iso_c_binding, only: dp => c_double, int8 => c_int8_t
   use kz_cycles_cycles, only: attractor_t
-  use kz_grown_bands, only: band_holds
-  use kz_grown_ellipses, only: in_ellipse
-  use kz_grown_cell_images, only: images_t, corners_t, PERIODS, corners_of, extent
-  use kz_grown_grid, only: regions_t, note_closed
-  use kz_grown_places, only: grid_t, fold_cell
+  use kz_computed_bands, only: band_holds
+  use kz_computed_ellipses, only: in_ellipse
+  use kz_computed_cell_images, only: images_t, corners_t, PERIODS, corners_of, extent
+  use kz_computed_grid, only: regions_t, note_closed
+  use kz_computed_places, only: grid_t, fold_cell
   use kz_maps_states, only: midperiod_angle
   implicit none
   private
@@ -295,4 +295,4 @@ contains
     if (i >= circle%n_theta) cell = circle%n_circle - 1 - i + circle%n_theta*(circle%n_velocity - 1 - row)
   end function stored
 
-end module kz_grown_growth
+end module kz_computed_growth

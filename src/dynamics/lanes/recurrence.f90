@@ -1,5 +1,5 @@
 !> When a motion comes back to a strobe point of its own: the last points of every lane of a batch.
-module kz_plane_recurrence
+module kz_lanes_recurrence
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: map_t, WIDTH, PI
   implicit none
@@ -86,4 +86,4 @@ contains
     end do
   end subroutine find
 
-end module kz_plane_recurrence
+end module kz_lanes_recurrence

@@ -1,5 +1,5 @@
 !> Closed attracting invariant curves round the cylinder, filled by the motions of running states.
-module kz_grown_curves
+module kz_computed_curves
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH, PI
   implicit none
@@ -258,4 +258,4 @@ contains
     turned = cubic([-1.0_dp, 0.0_dp, 1.0_dp, 2.0_dp], y, x - i)
   end function shift_at
 
-end module kz_grown_curves
+end module kz_computed_curves
