@@ -11,12 +11,12 @@ from pathlib import Path
 
 import pytest
 from conftest import ROOT
+from page_engine import in_order
 
 BUILD = ROOT / "build"
 FORTRAN, C = "flang-new-19", "clang-19"
 # Two warnings of right code that no option turns off: flang has no arithmetic of 128 bits while it compiles, and
-# Fortran 2018
-# lets c_f_pointer take any type.
+# Fortran 2018 lets c_f_pointer take any type.
 EXPECTED = re.compile(r"cannot be folded on host|included here|FPTR= argument to C_F_POINTER")
 
 
@@ -44,27 +44,6 @@ def test_clang_takes_all_c() -> None:
         if done.returncode:
             wrong.append(done.stderr)
     assert not wrong, "\n".join(wrong)
-
-
-def in_order(files: set[Path]) -> list[Path]:
-    """Files after those whose modules they use."""
-    text = {file: file.read_text() for file in files}
-    module = re.compile(r"^\s*(?:sub)?module\s+(?!procedure|subroutine|function)(\w+)\s*$", re.M | re.I)
-    used = re.compile(r"^\s*(?:use(?:\s*::|\s*,\s*intrinsic\s*::)?\s+|submodule\s*\()(\w+)", re.M | re.I)
-    home = {name.lower(): file for file in files for name in module.findall(text[file])}
-    order: list[Path] = []
-
-    def visit(file: Path) -> None:
-        for name in used.findall(text[file]):
-            other = home.get(name.lower(), file)
-            if other != file and other not in order:
-                visit(other)
-        if file not in order:
-            order.append(file)
-
-    for file in sorted(files):
-        visit(file)
-    return order
 
 
 @pytest.mark.skipif(not shutil.which(FORTRAN), reason=f"{FORTRAN} is not installed")
